@@ -59,7 +59,7 @@ class Quantity:
         return (self.value - scale.offset) / scale.factor
 
     def to(self, unit: str) -> Quantity:
-        """The same quantity shown in another unit of `UNITS`; DimensionError where that measures something else."""
+        """The same quantity shown in another unit of `UNITS`; DimensionError if that measures something else."""
         if UNITS[unit].dimension != self.dimension:
             raise DimensionError("convert between", self.dimension, UNITS[unit].dimension)
         return Quantity(self.value, self.dimension, unit)
@@ -104,7 +104,7 @@ class Quantity:
         return Quantity(self.value + other.value, keeper.dimension, keeper.unit)
 
     def __sub__(self, other: Quantity) -> Quantity:
-        """Two points make a difference (in base units); nothing can be subtracted from a difference but one."""
+        """Two points make a difference, in base units; from a difference only a difference is subtracted."""
         left, right = self.dimension, other.dimension
         if left.difference != right.difference or (right.point and not left.point):
             raise DimensionError("subtract", left, right)

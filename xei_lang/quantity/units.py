@@ -21,8 +21,8 @@ class Unit:
     offset: Fraction = Fraction(0)
 
 
-# An angle's exact factor is irrational: the double nearest to pi, taken as an exact fraction, keeps 180 deg == pi
-# in floats and lets 90 deg print as 90 deg.
+# An angle's exact factor is irrational: the double nearest to pi, taken as an exact fraction, keeps
+# 180 deg == pi in floats and lets 90 deg print as 90 deg.
 _DEGREE = Fraction(math.pi) / 180
 _SIZES: tuple[tuple[Dimension, tuple[tuple[str, Fraction | int], ...]], ...] = (
     (d.NUMBER, (("%", Fraction(1, 100)),)),
@@ -125,7 +125,7 @@ UNIT_HABITS: Mapping[str, str] = MappingProxyType(
         **dict.fromkeys(("minutes", "minute", "mins"), "min"),
         **dict.fromkeys(("hours", "hour", "hr", "hrs"), "h"),
         **dict.fromkeys(("days", "day"), "d"),
-        **dict.fromkeys(("×g", "x_g", "rcf"), "xg"),
+        **dict.fromkeys(("\N{MULTIPLICATION SIGN}g", "x_g", "rcf"), "xg"),
         **dict.fromkeys(("milliliter", "milliliters", "millilitre", "millilitres", "cc"), "mL"),
         **dict.fromkeys(("microliter", "microliters", "microlitre", "microlitres"), "uL"),
         **dict.fromkeys(("percent",), "%"),
