@@ -1,0 +1,245 @@
+"""MotionGoalGraph: what the robot must do, goal by goal, before any motion is planned.
+
+The kinds are closed. Poses are in the base frame of the goal's epoch (every drive starts a new one), so that a goal
+never depends on where the base stood before. A goal that aims with the tool names a *family* of tool poses: the
+planner chooses one member, and every later goal of the same family keeps that choice until the hand changes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+from xei_lang.diagnostics import Span
+from xei_lang.ir.geometry import Pose, Vec3
+from xei_lang.ir.skill_plan import Side
+
+if TYPE_CHECKING:
+    import networkx
+
+GoalKind = Literal[
+    "move_to", "open_gripper", "close_gripper", "set_do", "slide_move", "nav_to_pose", "wait", "perceive",
+    "confirm", "instrument", "attach", "detach",
+]  # fmt: skip
+PathKind = Literal["free", "linear", "arc", "screw", "raster"]
+
+
+@dataclass(frozen=True, slots=True)
+class ToolPose:
+    """One member of a family: the grasp frame of the gripper in the reference frame (z approaches, y opens).
+
+    `name` tells people what it is: `from the side, 45 deg down, azimuth 30 deg, 35 mm under the top`.
+    `cost` ranks members that are otherwise alike (smaller is better).
+    """
+
+    name: str
+    T_reference_tool: Pose
+    cost: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Family:
+    """Alternative tool poses about one reference, usually the grasps of one object.
+
+    `symmetric` says that the reference may be turned about its z axis without any difference (a round tube in a
+    round slot), which a planner may use where it sets the object down.
+    """
+
+    id: str
+    reference: str
+    members: tuple[ToolPose, ...]
+    symmetric: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class ToolTarget:
+    """The tool stands at `translate(offset_base_m) @ T_base_reference @ T_reference_tool @ translate(offset_tool_m)`.
+
+    `offset_base_m` lifts or lowers in the base frame, `offset_tool_m` backs off along the approach (negative z).
+    With `turn_reference`, and a symmetric family, the reference may also be turned about its own z axis.
+    """
+
+    family: str
+    T_base_reference: Pose
+    offset_base_m: Vec3 = (0.0, 0.0, 0.0)
+    offset_tool_m: Vec3 = (0.0, 0.0, 0.0)
+    turn_reference: bool = False
+    position_tolerance_m: float = 0.001
+    rotation_tolerance_rad: float = 0.01
+
+
+@dataclass(frozen=True, slots=True)
+class JointTarget:
+    """A named configuration of the robot description (`home`, `ready`, `transport`) with its joints (rad, m)."""
+
+    name: str
+    joints: tuple[tuple[str, float], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class MoveTo:
+    """Bring the tool of `arm` (or, for a joint target, the joints it names) to a target.
+
+    `keep_upright` bounds the tilt of what is held; `speed_fraction` scales the velocity limits, in (0, 1].
+    """
+
+    target: ToolTarget | JointTarget
+    arm: Side | None = None
+    path: PathKind = "free"
+    keep_upright: bool = False
+    speed_fraction: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Grip:
+    """`open_gripper` or `close_gripper`: bring the gap between the jaws to `opening_m` (0 .. 0.088 m on OpenArm v1)."""
+
+    arm: Side
+    opening_m: float
+    force_n: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class SetDo:
+    """Set a digital output."""
+
+    output: str
+    value: bool
+
+
+@dataclass(frozen=True, slots=True)
+class SlideMove:
+    """Bring the vertical slide to a height above its lower end."""
+
+    height_m: float
+
+
+@dataclass(frozen=True, slots=True)
+class NavToPose:
+    """Drive the base to a station; the next goals belong to the next epoch."""
+
+    station: str
+    T_world_base: Pose
+    position_tolerance_m: float
+    rotation_tolerance_rad: float
+
+
+@dataclass(frozen=True, slots=True)
+class Wait:
+    """Let time pass."""
+
+    duration_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class Perceive:
+    """Ground the frame again; until it has run, later goals of its epoch are provisional."""
+
+    frame: str
+
+
+@dataclass(frozen=True, slots=True)
+class Confirm:
+    """Hold the run until a person has answered."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Instrument:
+    """A command to an instrument that then works on its own."""
+
+    instrument: str
+    command: str
+
+
+@dataclass(frozen=True, slots=True)
+class Attach:
+    """From here on the object moves with the hand."""
+
+    object: str
+    arm: Side
+    family: str
+
+
+@dataclass(frozen=True, slots=True)
+class Detach:
+    """From here on the object stands at `T_base_object` (turned about z where the family is symmetric)."""
+
+    object: str
+    arm: Side
+    place: str
+    T_base_object: Pose
+
+
+Action = (
+    MoveTo | Grip | SetDo | SlideMove | NavToPose | Wait | Perceive | Confirm | Instrument | Attach | Detach
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """An operation parameter of a goal and which source won: `skill`, `computed`, `usage_profile` or `call`."""
+
+    name: str
+    value: str
+    source: Literal["skill", "computed", "usage_profile", "call"]
+    rule: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class MotionGoal:
+    """One goal. `id` is unique in the graph; `resources` name what it occupies (`left_arm`, `slide`, `base`).
+
+    `allowed_contacts` are pairs of body names that may touch while it runs (held object and fingers, object and slot).
+    """
+
+    id: str
+    step_id: str
+    kind: GoalKind
+    action: Action
+    epoch: int
+    resources: tuple[str, ...]
+    span: Span
+    parameters: tuple[Parameter, ...] = ()
+    allowed_contacts: tuple[tuple[str, str], ...] = ()
+    provisional: bool = False
+    min_duration_s: float = 0.0
+    max_duration_s: float = float("inf")
+
+
+@dataclass(frozen=True, slots=True)
+class Epoch:
+    """A stand of the base: everything between two drives. `T_world_base` is nominal, good to the docking tolerance."""
+
+    index: int
+    station: str
+    T_world_base: Pose
+
+
+@dataclass(frozen=True, slots=True)
+class MotionGoalGraph:
+    """Goals in a deterministic topological order, with the edges `(before, after)` that they must respect."""
+
+    goals: tuple[MotionGoal, ...]
+    edges: tuple[tuple[str, str], ...]
+    families: tuple[Family, ...]
+    epochs: tuple[Epoch, ...]
+
+    def family(self, family_id: str) -> Family:
+        """The family of this id. Raises KeyError where the graph has none (its verifier refuses that)."""
+        for family in self.families:
+            if family.id == family_id:
+                return family
+        raise KeyError(family_id)
+
+    def networkx(self) -> networkx.DiGraph[Any]:
+        """The graph as networkx: one node a goal id with the goal as its `goal` attribute."""
+        import networkx
+
+        graph: networkx.DiGraph[Any] = networkx.DiGraph()
+        for goal in self.goals:
+            graph.add_node(goal.id, goal=goal)
+        graph.add_edges_from(self.edges)
+        return graph
+

@@ -1,0 +1,152 @@
+"""SkillPlan: which registered skills a protocol asks for, in which partial order, with every argument resolved.
+
+The plan is a partial order: `after` names the steps that must have ended before one starts. A plain sequence is a
+chain. Branches of a choice, turns of a loop and calls of procedures leave their marks (`branch`, `turn`, `origin`)
+so that a step can always be shown at the place where somebody wrote it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from xei_lang.diagnostics import Span
+from xei_lang.quantity import Quantity
+
+StepKind = Literal[
+    "skill", "wait", "confirm", "start", "await", "pause", "stop", "leave", "measure", "require"
+]
+Side = Literal["left", "right"]
+ArmChoice = Literal["left", "right", "either"]
+
+
+@dataclass(frozen=True, slots=True)
+class ObjectRef:
+    """A registered object, by its name in the usage profile."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class PlaceRef:
+    """A place on or in an object: a slot of a rack (`kind="slot"`, `key="A1"`) or a named spot of a surface.
+
+    Written `rack_1.slot("A1")` or `table.spot("bottle")`; a whole surface has `kind="surface"` and an empty key.
+    """
+
+    object: str
+    kind: Literal["slot", "spot", "surface"]
+    key: str
+
+
+@dataclass(frozen=True, slots=True)
+class StationRef:
+    """A navigation pose from which a bench is worked: a scene origin of the calibration profile."""
+
+    name: str
+
+
+Value = Quantity | int | float | bool | str | ObjectRef | PlaceRef | StationRef | tuple["Value", ...]
+"""What an argument can be once it is checked. An arm is its name as a string (`left`, `right`, `either`)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Argument:
+    """A checked argument: its value and where both came from (`default` when the skill bank supplied it)."""
+
+    name: str
+    value: Value
+    type: str
+    source: Literal["call", "default"]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """One frame of the call chain that led to a step: the procedure and where it was called."""
+
+    procedure: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Fact:
+    """A known value of a state variable: `holding(left) == tube_1`, `at(tube_1) == rack_1.slot("A1")`."""
+
+    variable: str
+    subject: str
+    value: Value
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One step of the plan.
+
+    `step_id` is the step's path (`rack[2].insert#1`); `resources` are what it occupies (`left_arm`, `slide`, `base`).
+    `when` holds, in source words, the run-time condition under which the step happens; empty means always.
+    `state_before` lists what is known when it starts, sorted by variable and subject.
+    """
+
+    step_id: str
+    kind: StepKind
+    span: Span
+    skill: str = ""
+    owner: str = ""
+    args: tuple[Argument, ...] = ()
+    duration_s: tuple[float, float] = (0.0, 0.0)
+    after: tuple[str, ...] = ()
+    branch: str = ""
+    turn: tuple[int, ...] = ()
+    when: tuple[str, ...] = ()
+    resources: tuple[str, ...] = ()
+    state_before: tuple[Fact, ...] = ()
+    origin: tuple[Call, ...] = ()
+
+    def arg(self, name: str) -> Value | None:
+        """The value of an argument, or None where neither the call nor the skill bank gives one."""
+        return next((argument.value for argument in self.args if argument.name == name), None)
+
+
+@dataclass(frozen=True, slots=True)
+class UnmappedRequest:
+    """Something that was asked for and that this robot cannot do, kept in its place."""
+
+    text: str
+    reason: str
+    after_step: str | None
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class SafetyNote:
+    """A note of the protocol that people who run it must read."""
+
+    text: str
+    after_step: str | None
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class TimeConstraint:
+    """`lower_s <= time(to) - time(from) <= upper_s` between ends of steps (`upper_s` may be infinite)."""
+
+    from_step: str
+    from_end: Literal["start", "end"]
+    to_step: str
+    to_end: Literal["start", "end"]
+    lower_s: float
+    upper_s: float
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class SkillPlan:
+    """The first handoff after the language: ordered skill calls, gaps, notes and timing, all with their sources."""
+
+    protocol: str
+    profile: str
+    steps: tuple[Step, ...]
+    initial_state: tuple[Fact, ...] = ()
+    constraints: tuple[TimeConstraint, ...] = ()
+    unmapped_requests: tuple[UnmappedRequest, ...] = ()
+    safety_notes: tuple[SafetyNote, ...] = ()
