@@ -1,0 +1,1 @@
+"""How each representation reads as text: one file a form, all through `canonical`."""
