@@ -1,0 +1,1 @@
+"""Collision-free geometric paths in joint space."""
