@@ -32,6 +32,30 @@ _ENTRIES = {
     # 03xx types, units and arguments
     # 05xx warnings
     # 06xx profiles and world
+    "XEI0601": Entry("a profile cannot be found"),
+    "XEI0602": Entry("a file of a profile cannot be read"),
+    "XEI0603": Entry("a file of a profile is not the YAML that it should be"),
+    "XEI0604": Entry("a value that YAML reads otherwise than people do"),
+    "XEI0605": Entry("an anchor, alias or tag in a profile"),
+    "XEI0606": Entry("a key that stands twice"),
+    "XEI0607": Entry("a key that a profile does not have"),
+    "XEI0608": Entry("a key that a profile must have"),
+    "XEI0609": Entry("a value of the wrong kind in a profile"),
+    "XEI0610": Entry("a quantity in a profile that is none, or measures something else"),
+    "XEI0611": Entry("a version of a profile that this xei does not read"),
+    "XEI0620": Entry("a name in a profile that nothing has"),
+    "XEI0621": Entry("a name in a profile that two things have"),
+    "XEI0622": Entry("an expression in the skill bank that cannot be read"),
+    "XEI0623": Entry("a template that names what its skill does not have"),
+    "XEI0624": Entry("a prior place that does not exist or does not take the object"),
+    "XEI0630": Entry("frames that do not form one tree"),
+    "XEI0640": Entry("sizes in a profile that contradict each other"),
+    "XEI0641": Entry("two objects in one place"),
+    "XEI0642": Entry("two objects that stand in each other"),
+    "XEI0643": Entry("an object below the surface that it should stand on"),
+    "XEI0650": Entry("the robot's description cannot be read"),
+    "XEI0651": Entry("a planning limit that does not fit the robot"),
+    "XEI0660": Entry("the world cannot be grounded"),
     # 07xx lowering and operation parameters
     # 08xx motion
     # 09xx running, bundles and traces

@@ -7,13 +7,15 @@ pydantic models that validate the YAML files stand in `profiles/schema/`.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from xei_lang.diagnostics import Span
 from xei_lang.ir.geometry import Pose, Primitive, Shape, Vec3
 from xei_lang.ir.goals import GoalKind
 from xei_lang.quantity import Quantity
-from xei_lang.syntax.ast import Predicate, RoleExpression
+
+if TYPE_CHECKING:
+    from xei_lang.syntax.ast import Predicate, TypeExpr
 
 Status = Literal["measured", "estimated", "placeholder"]
 
@@ -130,17 +132,21 @@ class LabObject:
 class ArgSpec:
     """An argument of a skill. `type` is `object`, `Place`, `Station`, `Arm`, a quantity's type, `Int`, `Float`, `Bool`,
     `String`, or `choice` (then `choices` are its words). Bounds hold for quantities and numbers, ends included.
+
+    For a Place, `choices` are the kinds that it admits (`slot`, `spot`, `surface`; empty admits all), and an object
+    whose roles satisfy `roles` may be given for its whole surface. `roles_text` is what the profile says, for messages.
     """
 
     name: str
     type: str
-    roles: RoleExpression | None
+    roles: TypeExpr | None
     min: Quantity | None
     max: Quantity | None
     default: str | Quantity | int | float | bool | None
     required: bool
     choices: tuple[str, ...]
     span: Span
+    roles_text: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -253,7 +259,11 @@ class SceneOrigin:
 
 @dataclass(frozen=True, slots=True)
 class Calibration:
-    """Frames, limits and tolerances of this deployment. Bounds are `(min xyz, max xyz)` in their frame, metres."""
+    """Frames, limits and tolerances of this deployment. Bounds are `(min xyz, max xyz)` in their frame, metres.
+
+    `robot_frames` maps frames that the robot carries to links of its description. `placeholders` lists what nobody has
+    measured yet and what therefore blocks a run on hardware.
+    """
 
     frames: tuple[CalibratedFrame, ...]
     limits: tuple[PlanningLimit, ...]
@@ -272,13 +282,64 @@ class Calibration:
     spill_tilt_rad: float
     clearance_m: float
     placeholders: tuple[tuple[str, Span], ...]
+    robot_frames: tuple[tuple[str, str], ...] = ()
+
+
+# robot/: what the compiler reads of the robot's own description
+
+
+@dataclass(frozen=True, slots=True)
+class RobotJoint:
+    """A joint of the URDF: its links, its place in the parent link, and its range and rating (rad or m, rad/s or m/s, N m or N).
+
+    A fixed joint has no range. `mimic` names the joint that it follows, or is empty.
+    """
+
+    name: str
+    kind: Literal["fixed", "revolute", "continuous", "prismatic"]
+    parent: str
+    child: str
+    T_parent_joint: Pose
+    axis: Vec3
+    lower: float
+    upper: float
+    velocity: float
+    effort: float
+    mimic: str
+
+
+@dataclass(frozen=True, slots=True)
+class NamedState:
+    """A named configuration of a group of joints in the SRDF (`home` of `left_arm`)."""
+
+    name: str
+    group: str
+    joints: tuple[tuple[str, float], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class RobotDescription:
+    """The robot's tree and its named states; `root` is the link that no joint carries."""
+
+    root: str
+    links: tuple[str, ...]
+    joints: tuple[RobotJoint, ...]
+    states: tuple[NamedState, ...]
+
+    def joint(self, name: str) -> RobotJoint | None:
+        """The joint of this name, or None."""
+        return next((item for item in self.joints if item.name == name), None)
+
+    def state(self, name: str) -> tuple[tuple[str, float], ...]:
+        """All joints that the groups' states of this name set, in the groups' order; empty for an unknown name."""
+        return tuple(joint for state in self.states if state.name == name for joint in state.joints)
 
 
 @dataclass(frozen=True, slots=True)
 class Profile:
     """A whole profile folder: all objects sorted by name, the skill bank, the calibration, the robot's description.
 
-    `files` maps each file (path relative to the folder) to the SHA-256 of its bytes.
+    `files` maps each file (path relative to the folder) to the SHA-256 of its bytes; `hazards` lists those of each liquid.
     """
 
     name: str
@@ -288,6 +349,8 @@ class Profile:
     calibration: Calibration
     incompatible: tuple[tuple[str, str], ...]
     files: tuple[tuple[str, str], ...]
+    robot: RobotDescription
+    hazards: tuple[tuple[str, tuple[str, ...]], ...] = ()
 
     def object(self, name: str) -> LabObject | None:
         """The object of this name, or None."""
