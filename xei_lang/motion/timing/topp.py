@@ -18,7 +18,7 @@ from xei_lang.motion.paths.joint_path import Array, JointPath
 HEADROOM = 0.98
 """Share of each velocity, acceleration and torque limit that a plan may use."""
 
-_GRID_INTERVALS = 100
+_GRID_INTERVALS = (100, 200, 400)
 _STILL = 1e-6
 
 InverseDynamics = Callable[[Array, Array, Array], Array]
@@ -51,11 +51,14 @@ def parameterise(
     stuck = _static_overload(path, limits, inverse_dynamics)
     if stuck is not None:
         return stuck
-    grid = _grid(path)
-    speeds = _solve(path, grid, limits, inverse_dynamics, speed_fraction)
-    if speeds is None:
-        return TimingFailure("no speed along the path keeps the velocity, acceleration and torque limits")
-    return _knots(path, grid, speeds)
+    for intervals in _GRID_INTERVALS:
+        grid = _grid(path, intervals)
+        speeds = _solve(path, grid, limits, inverse_dynamics, speed_fraction)
+        if speeds is not None:
+            knots = _knots(path, grid, speeds)
+            if _keeps_limits(path, grid, speeds, limits, inverse_dynamics):
+                return knots
+    return TimingFailure("no speed along the path keeps the velocity, acceleration and torque limits")
 
 
 def still(path: JointPath, duration_s: float = 0.0) -> Knots:
@@ -63,9 +66,9 @@ def still(path: JointPath, duration_s: float = 0.0) -> Knots:
     return Knots((0.0, 1.0), ((_row(path.start),),), (0.0, duration_s), (0.0, 0.0), (0.0, 0.0), (0.0,))
 
 
-def _grid(path: JointPath) -> Array:
+def _grid(path: JointPath, intervals: int) -> Array:
     """Grid points: the path's own breaks and an even division, finer towards the ends where speed is low."""
-    even = np.linspace(0.0, 1.0, _GRID_INTERVALS + 1)
+    even = np.linspace(0.0, 1.0, intervals + 1)
     ends = np.array([0.001, 0.004, 0.996, 0.999])
     grid = np.unique(np.concatenate([path.breaks, path.length * even, path.length * ends]))
     keep = np.concatenate([[True], np.diff(grid) > 1e-6 * path.length])
@@ -103,6 +106,32 @@ def _static_overload(
         return None
     reason = "holding still against gravity needs more torque than the joint may give"
     return TimingFailure(reason, path.joints[worst], float(holding[worst]), limits[worst].torque)
+
+
+def _keeps_limits(
+    path: JointPath,
+    grid: Array,
+    speeds: Array,
+    limits: tuple[JointLimit, ...],
+    inverse_dynamics: InverseDynamics | None,
+) -> bool:
+    """Whether the exact motion keeps all limits within each grid interval too, looked at in five places of each.
+
+    A coarse grid can miss the bend of a rounded corner; then the caller takes a finer one.
+    """
+    share = np.linspace(0.01, 0.99, 5)
+    squares = speeds**2
+    s = (grid[:-1, None] + np.diff(grid)[:, None] * share).ravel()
+    ds_squared = (squares[:-1, None] + np.diff(squares)[:, None] * share).ravel()[:, None]
+    dds = np.repeat(np.diff(squares) / (2.0 * np.diff(grid)), len(share))[:, None]
+    slope = path.evaluate(s, 1)
+    velocity = slope * np.sqrt(ds_squared)
+    acceleration = path.evaluate(s, 2) * ds_squared + slope * dds
+    bounds = np.array([[limit.velocity, limit.acceleration, limit.torque] for limit in limits]).T
+    kept = bool(np.all(np.abs(velocity) <= bounds[0]) and np.all(np.abs(acceleration) <= bounds[1]))
+    if not kept or inverse_dynamics is None:
+        return kept
+    return bool(np.all(np.abs(inverse_dynamics(path.evaluate(s, 0), velocity, acceleration)) <= bounds[2]))
 
 
 def _knots(path: JointPath, grid: Array, speeds: Array) -> Knots:
