@@ -1,0 +1,1 @@
+"""From motion goals to timed, verified trajectories."""
