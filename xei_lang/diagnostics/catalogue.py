@@ -28,6 +28,8 @@ _ENTRIES = {
     "XEI0103": Entry("a file has no protocol in it"),
     "XEI0104": Entry("the text does not follow the grammar"),
     "XEI0105": Entry("a construct of the language that this version does not compile yet"),
+    "XEI0106": Entry("a name that is not lower case"),
+    "XEI0107": Entry("a text that is too large or nested too deeply"),
     # 02xx names and binding
     # 03xx types, units and arguments
     # 05xx warnings

@@ -1,0 +1,197 @@
+"""What has a value: literals, names, operators, calls, ranges; and the updates of a skill bank."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Literal
+
+from xei_lang.diagnostics import Span
+from xei_lang.quantity import Quantity
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Name:
+    """A name where it is declared or used."""
+
+    id: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Number:
+    """A plain number: an int if it was written without a decimal point, else an exact fraction."""
+
+    value: int | Fraction
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class QuantityLit:
+    """A number with a unit, never negative: `-20 degC` is a Unary over it."""
+
+    value: Quantity
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StringLit:
+    """A text; `value` has its escapes resolved, the span covers the quotes."""
+
+    value: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bool:
+    """`true` or `false`."""
+
+    value: bool
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Unary:
+    """`-operand` or `not operand`."""
+
+    op: Literal["-", "not"]
+    operand: Expression
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Binary:
+    """Arithmetic on two values."""
+
+    op: Literal["+", "-", "*", "/"]
+    left: Expression
+    right: Expression
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Compare:
+    """One comparison; the grammar has no chains of them."""
+
+    op: Literal["==", "!=", "<=", ">=", "<", ">"]
+    left: Expression
+    right: Expression
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BoolOp:
+    """`left and right`, `left or right`."""
+
+    op: Literal["and", "or"]
+    left: Expression
+    right: Expression
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Attr:
+    """`value.name`, as in `rack.row`."""
+
+    value: Expression
+    name: Name
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Range:
+    """`lower .. upper`, both ends included, with an optional step."""
+
+    lower: Expression
+    upper: Expression
+    step: Expression | None
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Index:
+    """`value[index]`; a Range selects several."""
+
+    value: Expression
+    index: Expression | Range
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Arg:
+    """One argument of a call; `name` is None where only a value was given."""
+
+    name: Name | None
+    value: Expression
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CallExpr:
+    """A call that has a value, such as `rack.row("A")` or `volume(tube)`."""
+
+    function: Expression
+    args: tuple[Arg, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ListLit:
+    """`[a, b]`."""
+
+    items: tuple[Expression, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TupleLit:
+    """`(a, b)`, of two items or more."""
+
+    items: tuple[Expression, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Comprehension:
+    """`[element for names in iterable if condition]`."""
+
+    element: Expression
+    names: tuple[Name, ...]
+    iterable: Expression | Range
+    condition: Expression | None
+    span: Span
+
+
+Expression = (
+    Name
+    | Number
+    | QuantityLit
+    | StringLit
+    | Bool
+    | Unary
+    | Binary
+    | Compare
+    | BoolOp
+    | Attr
+    | Index
+    | CallExpr
+    | ListLit
+    | TupleLit
+    | Comprehension
+)
+
+StepRef = Name | Attr | Index
+"""A step by its path: `warm`, `warm[2]`, `call.warm`."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Update:
+    """What a skill does to a state variable: `cap(object) := open`, `volume(source) -= volume`."""
+
+    target: Expression
+    op: Literal[":=", "+=", "-="]
+    value: Expression
+    span: Span
+
+
+Predicate = Expression | Update

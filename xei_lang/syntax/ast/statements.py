@@ -1,0 +1,247 @@
+"""What happens: steps with label and clauses, the actions that a step can be, statements that are no steps."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from xei_lang.diagnostics import Span
+from xei_lang.syntax.ast.expressions import Arg, Expression, Name, Range, StepRef, StringLit
+from xei_lang.syntax.ast.types import TypeExpr
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Block:
+    """`{ ... }`; the span covers the braces."""
+
+    statements: tuple[Statement, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Within:
+    """`within duration [of step]`: bounds the step itself, or the time since the end of another."""
+
+    duration: Expression
+    of: StepRef | None
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class After:
+    """`after step [by range]`."""
+
+    step: StepRef
+    by: Range | None
+    span: Span
+
+
+Clause = Within | After
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Call:
+    """A skill or procedure with its arguments."""
+
+    callee: Name
+    args: tuple[Arg, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Wait:
+    """`wait duration`."""
+
+    duration: Expression
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Start:
+    """`start label: call`; the label is that of the Step around it."""
+
+    call: Call
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Await:
+    """`await step`."""
+
+    step: StepRef
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stop:
+    """`stop step` ends what was started."""
+
+    step: StepRef
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StopRun:
+    """`stop "message"` ends the run."""
+
+    message: StringLit
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Leave:
+    """`leave step` lets what was started outlive the protocol."""
+
+    step: StepRef
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pause:
+    """`pause step { ... }`."""
+
+    step: StepRef
+    body: Block
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Keep:
+    """`keep condition { ... }`: holds at every point inside."""
+
+    condition: Expression
+    body: Block
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Measure:
+    """`measure name: type = call [in limits]`; the name is also the step's name."""
+
+    name: Name
+    type: TypeExpr
+    call: Call
+    limits: Range | None
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Confirm:
+    """`confirm "text"`: a step of a person."""
+
+    text: StringLit
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Do:
+    """`do { ... }`: a block that can carry a label and clauses."""
+
+    body: Block
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Parallel:
+    """`parallel { {...} {...} }`, of one branch or more."""
+
+    branches: tuple[Block, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class For:
+    """`for names in iterable [unordered] { ... }`."""
+
+    names: tuple[Name, ...]
+    iterable: Expression | Range
+    unordered: bool
+    body: Block
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Repeat:
+    """`repeat count times [until condition] { ... } [else { ... }]`."""
+
+    count: Expression
+    until: Expression | None
+    body: Block
+    otherwise: Block | None
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class If:
+    """`if condition { ... } [else ...]`; an `else if` is an If in `otherwise`."""
+
+    condition: Expression
+    body: Block
+    otherwise: If | Block | None
+    span: Span
+
+
+Action = (
+    Call
+    | Wait
+    | Start
+    | Await
+    | Stop
+    | StopRun
+    | Leave
+    | Pause
+    | Keep
+    | Measure
+    | Confirm
+    | Do
+    | Parallel
+    | For
+    | Repeat
+    | If
+)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Step:
+    """An action with its label and its clauses; `label.span` covers the name without the colon."""
+
+    label: Name | None
+    action: Action
+    clauses: tuple[Clause, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Let:
+    """`let name = value`."""
+
+    name: Name
+    value: Expression
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Require:
+    """`require condition`."""
+
+    condition: Expression
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Unmapped:
+    """`unmapped "text" [because "reason"]`: a request that the protocol does not fulfil."""
+
+    text: StringLit
+    reason: StringLit | None
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Note:
+    """`note "text"`: a safety note that the plan carries."""
+
+    text: StringLit
+    span: Span
+
+
+Statement = Step | Let | Require | Unmapped | Note

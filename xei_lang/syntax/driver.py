@@ -1,0 +1,156 @@
+"""The LALR(1) machine: shifts tokens and calls the builder at each reduction. It builds no tree of its own.
+
+lark has such a machine too; this one lets a word be a keyword only where that keyword may really follow (lark's
+contextual lexer asks the merged state, which also admits keywords of other contexts), keeps no line counters,
+and needs no import of lark.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from xei_lang.syntax.lexer import COMMENT, SIGN, WORD, Scanner, Token
+from xei_lang.syntax.tables import END, Tables
+
+Reduction = Callable[[list[Any]], Any]
+
+
+class SyntaxFault(Exception):
+    """The first token that cannot follow. `expected` are the terminals that could stand in its place."""
+
+    def __init__(self, token: Token, expected: frozenset[str]) -> None:
+        super().__init__(token.kind)
+        self.token = token
+        self.expected = expected
+
+
+class Driver:
+    """Tables and scanner for one grammar; holds nothing of a parse, so one serves any number of them."""
+
+    def __init__(self, tables: Tables) -> None:
+        self.tables = tables
+        self.scanner = Scanner(tables)
+
+    def parse(self, text: str, start: str, builder: Any, comments: list[Token]) -> Any:
+        """The value that `builder` makes of `text`; its method `on_<rule>` gets the list of a rule's children.
+
+        Comments are appended to `comments` as they are met. Raises SyntaxFault at the first wrong token.
+        """
+        tables = self.tables
+        rules, actions, gotos = tables.rules, tables.actions, tables.gotos
+        reductions = [_reduction(builder, rule.action) for rule in rules]
+        end_state = tables.end_states[start]
+        states = [tables.start_states[start]]
+        values: list[Any] = []
+        position = 0
+        while True:
+            token = self._next(text, position)
+            position = token.end
+            kind = token.kind
+            if kind == COMMENT:
+                comments.append(token)
+                continue
+            if kind == WORD and token.text in tables.words:
+                keyword = tables.words[token.text]
+                if self._takes_keyword(states, keyword):
+                    kind = keyword
+            while True:
+                action = actions[states[-1]].get(kind)
+                if action is None:
+                    raise SyntaxFault(token._replace(kind=kind), self.expected(states, end_state))
+                if action >= 0:
+                    states.append(action)
+                    values.append(token)
+                    break
+                rule = rules[-1 - action]
+                size = rule.size
+                if not rule.passes:
+                    taken = values[-size:] if size else []
+                    if not rule.plain:
+                        taken = _spliced(taken, rule.parts)
+                    del values[len(values) - size :]
+                    values.append(reductions[-1 - action](taken))
+                del states[len(states) - size :]
+                states.append(gotos[states[-1]][rule.origin])
+                if kind == END and states[-1] == end_state:
+                    return values[-1]
+
+    def expected(self, states: list[int], end_state: int) -> frozenset[str]:
+        """The terminals that may really follow a stack of states (the table alone says more than that)."""
+        return frozenset(kind for kind in self.tables.actions[states[-1]] if self._may_follow(states, kind, end_state))
+
+    def tokens(self, text: str) -> list[Token]:
+        """All tokens but comments, without regard to the grammar; keywords are names here."""
+        found: list[Token] = []
+        position = 0
+        while True:
+            token = self._next(text, position)
+            if token.kind == END:
+                return found
+            if token.kind != COMMENT:
+                found.append(token)
+            position = token.end
+
+    def _next(self, text: str, position: int) -> Token:
+        match = self.scanner.match(text, position)
+        if match is None:
+            position = self.scanner.skip_space(text, position)
+            return self.scanner.stray(text, position) if position < len(text) else Token(END, "", position, position)
+        kind = match.lastgroup or ""
+        start, end = match.span(kind)
+        written = match[kind]
+        return Token(self.tables.signs[written] if kind == SIGN else kind, written, start, end)
+
+    def _takes_keyword(self, states: list[int], keyword: str) -> bool:
+        """Whether a word is this keyword here, rather than a name. Where both could be shifted, it is."""
+        here = self.tables.actions[states[-1]]
+        action = here.get(keyword)
+        if action is None:
+            return WORD not in here
+        return action >= 0 or WORD not in here or self._may_follow(states, keyword, None)
+
+    def _may_follow(self, states: list[int], kind: str, end_state: int | None) -> bool:
+        rules, actions, gotos = self.tables.rules, self.tables.actions, self.tables.gotos
+        pushed: list[int] = []
+        depth = len(states)
+        while True:
+            top = pushed[-1] if pushed else states[depth - 1]
+            action = actions[top].get(kind)
+            if action is None:
+                return False
+            if action >= 0:
+                return True
+            rule = rules[-1 - action]
+            dropped = min(rule.size, len(pushed))
+            del pushed[len(pushed) - dropped :]
+            depth -= rule.size - dropped
+            pushed.append(gotos[pushed[-1] if pushed else states[depth - 1]][rule.origin])
+            if kind == END and pushed[-1] == end_state:
+                return True
+
+
+def _reduction(builder: Any, action: str) -> Reduction:
+    return getattr(builder, f"on_{action}") if action else _children
+
+
+def _children(children: list[Any]) -> list[Any]:
+    return children
+
+
+def _spliced(children: list[Any], parts: tuple[tuple[int, bool], ...]) -> list[Any]:
+    """Children with lists of helpers laid out flat. The first list is extended, not copied: repetitions of the
+    grammar grow to the left, and copying would cost the square of their length."""
+    if parts[0] == (0, True):
+        result: list[Any] = children[0]
+        parts = parts[1:]
+    else:
+        result = []
+    for index, is_spliced in parts:
+        if index < 0:
+            result.append(None)
+        elif is_spliced:
+            result.extend(children[index])
+        else:
+            result.append(children[index])
+    return result
