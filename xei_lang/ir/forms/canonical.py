@@ -1,7 +1,7 @@
 """The one way that xei writes JSON, so that the same value always gives the same bytes.
 
-Keys keep the order in which the form puts them (a form is read by people, so `version` comes first); floats are the
-shortest text that reads back as the same number; nothing that JSON has no word for (NaN, infinity) gets through.
+Keys keep the order in which the form puts them (people read forms, so `version` comes first); floats are the
+shortest text that reads back as the same number; what JSON has no word for (NaN, infinity) is refused.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ _SCALARS = (str, int, float, bool, type(None))
 
 
 def dumps(value: Json) -> str:
-    """A document: one space of indent a level, a container of plain scalars on one line, a newline at the end.
+    """A document: one space of indent a level, a container of scalars on one line, a newline at the end.
 
-    Raises ValueError for NaN and infinity (write `null` or leave the key out) and TypeError for anything that is not
-    a `Json` value or a key that is no string: both are faults of the form, never of its input.
+    Raises ValueError for NaN and infinity (write `null` or leave the key out) and TypeError for what is no
+    `Json` value or a key that is no string: both are faults of the form, never of its input.
     """
     parts: list[str] = []
     _write(value, "\n", parts)

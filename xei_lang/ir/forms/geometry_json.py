@@ -12,7 +12,7 @@ def pose(value: Pose) -> dict[str, Json]:
 
 
 def shape(value: Shape) -> dict[str, Json]:
-    """`{"type": "box", "size_m": [...]}`, or a `cylinder`, `capsule` or `sphere` with its radius and height."""
+    """`{"type": "box", "size_m": [...]}`, or a cylinder, capsule or sphere with radius and height."""
     if isinstance(value, Box):
         return {"type": "box", "size_m": list(value.size_m)}
     if isinstance(value, Sphere):

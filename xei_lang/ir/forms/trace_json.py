@@ -1,8 +1,8 @@
 """Trace as JSON Lines: one event a line, each line holding the SHA-256 of the one before.
 
-Keys: `seq, t, stage, step_id, goal_id, prev_hash, representation`; the line of stage `end` also has `status`, on a
-failure `failed_stage`, and as its very last key a `seal`. No line follows that one to hold its hash, so the seal is
-the SHA-256 of the line itself with 64 zeros in the seal's place.
+Keys: `seq, t, stage, step_id, goal_id, prev_hash, representation`; the line of stage `end` also has `status`,
+on a failure `failed_stage`, and as its very last key a `seal`. No line follows that one to hold its hash, so
+the seal is the SHA-256 of the line itself with 64 zeros in the seal's place.
 """
 
 from __future__ import annotations

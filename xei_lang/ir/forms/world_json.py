@@ -1,4 +1,4 @@
-"""World as JSON: `{"version", "robot", "frames", "objects", "sources"}`; every object says where each field is from."""
+"""World as JSON: robot, frames, objects (each with where its fields are from) and the sources asked."""
 
 from __future__ import annotations
 
