@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import MappingProxyType
 
 
@@ -23,7 +23,7 @@ class Dimension:
     angle: int = 0
     amount: int = 0
     spin: int = 0
-    point: bool = False
+    point: bool = field(default=False, kw_only=True)
 
     @property
     def name(self) -> str:

@@ -59,7 +59,7 @@ class Quantity:
         return (self.value - scale.offset) / scale.factor
 
     def to(self, unit: str) -> Quantity:
-        """The same quantity shown in another unit of `UNITS`; DimensionError if that measures something else."""
+        """The same quantity in another unit of `UNITS`; DimensionError if that measures something else."""
         if UNITS[unit].dimension != self.dimension:
             raise DimensionError("convert between", self.dimension, UNITS[unit].dimension)
         return Quantity(self.value, self.dimension, unit)

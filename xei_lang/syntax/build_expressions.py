@@ -114,7 +114,7 @@ class ExpressionBuilder:
         return ast.Bool(False, self.span(c[0].start, c[0].end))
 
     def on_paren(self, c: list[Any]) -> Any:
-        """What is in brackets, which now count to its span, except where a span must be that of a single word."""
+        """What is in brackets, which now count to its span, unless it is a single word or literal."""
         opening, inner, closing = c
         if isinstance(inner, _LEAVES):
             return inner

@@ -1,4 +1,4 @@
-"""Making the syntax tree: one method for each rule of the grammar, called by the driver with the rule's children.
+"""Making the syntax tree: one method for each rule of the grammar, called by the driver with its children.
 
 Children are tokens, nodes, and None for an option that was not taken; see grammar/xei.lark for their order.
 """
@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from xei_lang.diagnostics import Source, Span
+from xei_lang.diagnostics import Source
 from xei_lang.syntax import ast
 from xei_lang.syntax.build_expressions import ExpressionBuilder
 from xei_lang.syntax.lexer import Token
@@ -24,7 +24,9 @@ class Builder(ExpressionBuilder):
 
     def on_module(self, c: list[Any]) -> ast.Module:
         version = c.pop(0) if c and isinstance(c[0], ast.Number) else None
-        comments = tuple(ast.Comment(text.rstrip(), self.span(start, end)) for _, text, start, end in self._comments)
+        comments = tuple(
+            ast.Comment(text.rstrip(), self.span(start, end)) for _, text, start, end in self._comments
+        )
         return ast.Module(version, tuple(c), comments, self.span(0, len(self.source.text)))
 
     def on_pragma(self, c: list[Any]) -> ast.Number:
@@ -53,13 +55,17 @@ class Builder(ExpressionBuilder):
         name, _, type_, _, default, _, limits = c
         last = limits or default or type_
         doc = self._doc(name.start)
-        return ast.Param(self.declared(name), type_, default, limits, doc, self.span(name.start, last.span.end))
+        return ast.Param(
+            self.declared(name), type_, default, limits, doc, self.span(name.start, last.span.end)
+        )
 
     def on_param(self, c: list[Any]) -> ast.Param:
         _, name, _, type_, _, default, _, limits = c
         last = limits or default or type_
         doc = self._doc(c[0].start)
-        return ast.Param(self.declared(name), type_, default, limits, doc, self.span(c[0].start, last.span.end))
+        return ast.Param(
+            self.declared(name), type_, default, limits, doc, self.span(c[0].start, last.span.end)
+        )
 
     def on_profile(self, c: list[Any]) -> ast.ProfileDecl:
         return ast.ProfileDecl(self.string(c[1]), self.span(c[0].start, c[1].end))
@@ -181,7 +187,7 @@ class Builder(ExpressionBuilder):
         return ast.Note(self.string(c[1]), self.span(c[0].start, c[1].end))
 
     def _doc(self, start: int) -> str:
-        """The text of the `##` lines that stand right before a place, with nothing but white space between."""
+        """The text of the `##` lines right before a place, with nothing but white space between."""
         lines: list[str] = []
         for _, text, begins, ends in reversed(self._comments):
             if begins >= start:
@@ -191,8 +197,3 @@ class Builder(ExpressionBuilder):
             lines.append(text[2:].strip())
             start = begins
         return "\n".join(reversed(lines))
-
-
-def span_of(source: Source, token: Token) -> Span:
-    """The place of a token."""
-    return Span(source.file, token.start, token.end)

@@ -1,8 +1,8 @@
 """The LALR(1) machine: shifts tokens and calls the builder at each reduction. It builds no tree of its own.
 
-lark has such a machine too; this one lets a word be a keyword only where that keyword may really follow (lark's
-contextual lexer asks the merged state, which also admits keywords of other contexts), keeps no line counters,
-and needs no import of lark.
+lark has such a machine too; this one lets a word be a keyword only where that keyword may really follow
+(lark's contextual lexer asks the merged state, which also admits keywords of other contexts), keeps no line
+counters, and needs no import of lark.
 """
 
 from __future__ import annotations
@@ -17,12 +17,11 @@ Reduction = Callable[[list[Any]], Any]
 
 
 class SyntaxFault(Exception):
-    """The first token that cannot follow. `expected` are the terminals that could stand in its place."""
+    """The first token that cannot follow."""
 
-    def __init__(self, token: Token, expected: frozenset[str]) -> None:
+    def __init__(self, token: Token) -> None:
         super().__init__(token.kind)
         self.token = token
-        self.expected = expected
 
 
 class Driver:
@@ -33,7 +32,7 @@ class Driver:
         self.scanner = Scanner(tables)
 
     def parse(self, text: str, start: str, builder: Any, comments: list[Token]) -> Any:
-        """The value that `builder` makes of `text`; its method `on_<rule>` gets the list of a rule's children.
+        """The value that `builder` makes of `text`; its method `on_<rule>` gets a rule's children as a list.
 
         Comments are appended to `comments` as they are met. Raises SyntaxFault at the first wrong token.
         """
@@ -52,13 +51,11 @@ class Driver:
                 comments.append(token)
                 continue
             if kind == WORD and token.text in tables.words:
-                keyword = tables.words[token.text]
-                if self._takes_keyword(states, keyword):
-                    kind = keyword
+                kind = self._word_kind(states, token.text)
             while True:
                 action = actions[states[-1]].get(kind)
                 if action is None:
-                    raise SyntaxFault(token._replace(kind=kind), self.expected(states, end_state))
+                    raise SyntaxFault(token._replace(kind=kind))
                 if action >= 0:
                     states.append(action)
                     values.append(token)
@@ -76,39 +73,59 @@ class Driver:
                 if kind == END and states[-1] == end_state:
                     return values[-1]
 
-    def expected(self, states: list[int], end_state: int) -> frozenset[str]:
-        """The terminals that may really follow a stack of states (the table alone says more than that)."""
-        return frozenset(kind for kind in self.tables.actions[states[-1]] if self._may_follow(states, kind, end_state))
+    def expected(self, tokens: list[Token], start: str) -> frozenset[str]:
+        """The terminals that may really follow after these tokens, which must be right ones.
 
-    def tokens(self, text: str) -> list[Token]:
-        """All tokens but comments, without regard to the grammar; keywords are names here."""
+        The machine itself cannot say so when it stops: it may have reduced on the wrong token's behalf first.
+        """
+        states = [self.tables.start_states[start]]
+        for token in tokens:
+            kind = self._word_kind(states, token.text) if token.text in self.tables.words else token.kind
+            while (action := self.tables.actions[states[-1]][kind]) < 0:
+                rule = self.tables.rules[-1 - action]
+                del states[len(states) - rule.size :]
+                states.append(self.tables.gotos[states[-1]][rule.origin])
+            states.append(action)
+        end_state = self.tables.end_states[start]
+        here = self.tables.actions[states[-1]]
+        return frozenset(kind for kind in here if self._may_follow(states, kind, end_state))
+
+    def tokens(self, text: str, until: int) -> list[Token]:
+        """The tokens that end at `until` or before, comments left out; keywords are still names here."""
         found: list[Token] = []
         position = 0
         while True:
             token = self._next(text, position)
-            if token.kind == END:
+            position = token.end
+            if token.kind == END or position > until:
                 return found
             if token.kind != COMMENT:
                 found.append(token)
-            position = token.end
 
     def _next(self, text: str, position: int) -> Token:
         match = self.scanner.match(text, position)
         if match is None:
             position = self.scanner.skip_space(text, position)
-            return self.scanner.stray(text, position) if position < len(text) else Token(END, "", position, position)
+            return (
+                self.scanner.stray(text, position)
+                if position < len(text)
+                else Token(END, "", position, position)
+            )
         kind = match.lastgroup or ""
         start, end = match.span(kind)
         written = match[kind]
         return Token(self.tables.signs[written] if kind == SIGN else kind, written, start, end)
 
-    def _takes_keyword(self, states: list[int], keyword: str) -> bool:
-        """Whether a word is this keyword here, rather than a name. Where both could be shifted, it is."""
+    def _word_kind(self, states: list[int], word: str) -> str:
+        """Whether a word that may be a keyword is one here, or a name. Where both could be shifted, it is."""
+        keyword = self.tables.words[word]
         here = self.tables.actions[states[-1]]
         action = here.get(keyword)
         if action is None:
-            return WORD not in here
-        return action >= 0 or WORD not in here or self._may_follow(states, keyword, None)
+            is_keyword = WORD not in here
+        else:
+            is_keyword = action >= 0 or WORD not in here or self._may_follow(states, keyword, None)
+        return keyword if is_keyword else WORD
 
     def _may_follow(self, states: list[int], kind: str, end_state: int | None) -> bool:
         rules, actions, gotos = self.tables.rules, self.tables.actions, self.tables.gotos
@@ -139,8 +156,11 @@ def _children(children: list[Any]) -> list[Any]:
 
 
 def _spliced(children: list[Any], parts: tuple[tuple[int, bool], ...]) -> list[Any]:
-    """Children with lists of helpers laid out flat. The first list is extended, not copied: repetitions of the
-    grammar grow to the left, and copying would cost the square of their length."""
+    """Children with the lists of helpers laid out flat.
+
+    The first list is extended, not copied: repetitions grow to the left, and copying would cost the square of
+    their length.
+    """
     if parts[0] == (0, True):
         result: list[Any] = children[0]
         parts = parts[1:]

@@ -67,7 +67,7 @@ def _rule(rule: Any) -> Rule:
 
 
 def _parts(rule: Any) -> tuple[tuple[int, bool], ...]:
-    """Where each child comes from. lark's `empty_indices` has True for an option that this expansion leaves out."""
+    """Where each child comes from. lark's `empty_indices` has True for an option that is left out here."""
     parts: list[tuple[int, bool]] = []
     present = 0
     symbols = list(rule.expansion)

@@ -24,16 +24,18 @@ SIGN = "SIGN"
 STRAY = "STRAY"
 """The kind of a token for what is no token at all: a character, or a number that runs into a word."""
 
-_STRAY = re.compile(r"\"[^\n]*|[0-9.]+\w*|[^\W\d]\w*|&&|\|\||//|[°µμ×'‘’“”]\w*|.", re.DOTALL)
+_STRAY = re.compile(r"\"[^\n]*|[0-9.]+\w*|[^\W\d]\w*|&&|\|\||//|[\u00b0\u00d7]\w*|.", re.DOTALL)
 
 
 class Scanner:
-    """Finds the token at a place. White space before it is skipped by the same match, which halves the work."""
+    """Finds the token at a place. The same match skips the white space before it, which halves the work."""
 
     def __init__(self, tables: Tables) -> None:
         space = dict(tables.patterns)[SPACE]
         named = [f"(?P<{name}>{pattern})" for name, pattern in tables.patterns if name != SPACE]
-        signs = "|".join(re.escape(sign) for sign in sorted(tables.signs, key=lambda sign: (-len(sign), sign)))
+        signs = "|".join(
+            re.escape(sign) for sign in sorted(tables.signs, key=lambda sign: (-len(sign), sign))
+        )
         self._space = re.compile(f"(?:{space})?")
         self.match = re.compile(f"(?:{space})?(?:{'|'.join(named)}|(?P<{SIGN}>{signs}))").match
 

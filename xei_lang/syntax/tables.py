@@ -1,6 +1,6 @@
-"""The grammar as the driver needs it: terminals and an LALR(1) table, made by lark once and then kept on disk.
+"""The grammar as the driver needs it: terminals and an LALR(1) table, made by lark once and kept on disk.
 
-lark is imported only to make the table, never to read it back: importing it costs more than parsing a protocol.
+lark is imported only to make the table, never to read it back: the import costs more than parsing a protocol.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ _FORMAT = 1
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """One production. `parts` holds (index, spliced) of each child; -1 as an index stands for a missing option.
+    """One production. `parts` holds (index, spliced) of each child; the index -1 stands for a missing option.
 
-    `passes` marks a production whose only child is its value; `action` names the builder's method, or is empty
-    for a helper whose children are spliced into the rule around it. `plain` says that children need no work.
+    `passes` marks a production whose only child is its value; `action` names the builder's method, or is
+    empty for a helper, whose children are spliced into the rule around it. `plain` children need no work.
     """
 
     origin: str
@@ -38,7 +38,7 @@ class Rule:
 
 @dataclass(frozen=True, slots=True)
 class Tables:
-    """`actions[state][terminal]` is a state to shift to, or `-1 - rule` to reduce; `gotos` likewise for rules.
+    """`actions[state][terminal]` is a state to shift to, or `-1 - rule` to reduce by; `gotos` are for rules.
 
     `patterns` are (name, regular expression) in the order in which to try them, `words` the keywords and
     `signs` the punctuation by their text. `ignored` names patterns that are no tokens.

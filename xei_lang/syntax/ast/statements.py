@@ -1,4 +1,4 @@
-"""What happens: steps with label and clauses, the actions that a step can be, statements that are no steps."""
+"""What happens: steps with label and clauses, the actions they can be, and statements that are no steps."""
 
 from __future__ import annotations
 

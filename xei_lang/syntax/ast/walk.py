@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterator
 from typing import Any
 
@@ -40,7 +39,7 @@ def equal_up_to_spans(left: object, right: object) -> bool:
             if len(a) != len(b):  # pyright: ignore[reportUnknownArgumentType]
                 return False
             waiting.extend(zip(a, b, strict=True))  # pyright: ignore[reportUnknownArgumentType]
-        elif hasattr(a, "span") and dataclasses.is_dataclass(a):
+        elif hasattr(a, "span"):
             waiting.extend((getattr(a, name), getattr(b, name)) for name in a.__slots__)
         elif a != b:
             return False

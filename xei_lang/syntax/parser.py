@@ -1,0 +1,100 @@
+"""From text to syntax tree: what a user writes gives a tree, a diagnostic, or both; never an exception."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from xei_lang.diagnostics import Diagnostic, Diagnostics, Source, Span
+from xei_lang.syntax import ast
+from xei_lang.syntax.builder import Builder
+from xei_lang.syntax.driver import Driver, SyntaxFault
+from xei_lang.syntax.lexer import Token
+from xei_lang.syntax.nesting import MAX_NESTING, too_deep
+from xei_lang.syntax.tables import load_tables
+
+_MINIMAL = 'protocol name {\n  profile "openarm_bench"\n  wait 1 s\n}'
+
+
+class Parser:
+    """Parses any number of texts; loading the tables (a few milliseconds) is done once, when it is made."""
+
+    def __init__(self) -> None:
+        self._driver = Driver(load_tables())
+
+    def module(self, source: Source) -> tuple[ast.Module | None, Diagnostics]:
+        """A whole file; None where the text does not follow the grammar: the first such place is reported."""
+        module, diagnostics = self._parse(source, "module")
+        if module is not None and not any(
+            isinstance(item, ast.Protocol | ast.Procedure) for item in module.items
+        ):
+            return None, (*diagnostics, _no_protocol(source, module))
+        return module, diagnostics
+
+    def predicate(self, source: Source) -> tuple[ast.Predicate | None, Diagnostics]:
+        """A condition or an update (`cap(object) := open`), as in the `requires` and `ensures` of a skill."""
+        return self._parse(source, "predicate")
+
+    def expression(self, source: Source) -> tuple[ast.Expression | ast.Range | None, Diagnostics]:
+        """A value or a range, such as `4 s .. 30 s`."""
+        return self._parse(source, "expression")
+
+    def role_expression(self, source: Source) -> tuple[ast.TypeExpr | None, Diagnostics]:
+        """A role expression or value type, such as `movable & not fragile`."""
+        return self._parse(source, "role_expression")
+
+    def _parse(self, source: Source, start: str) -> tuple[Any, Diagnostics]:
+        comments: list[Token] = []
+        builder = Builder(source, comments)
+        try:
+            node = self._driver.parse(source.text, start, builder, comments)
+        except SyntaxFault as fault:
+            from xei_lang.syntax.faults import explain
+
+            return None, (*builder.diagnostics, explain(source, start, fault.token, self._driver))
+        deep = too_deep(node)
+        if deep is not None:
+            return None, (*builder.diagnostics, _too_deep(deep))
+        return node, tuple(builder.diagnostics)
+
+
+def parse_module(source: Source) -> tuple[ast.Module | None, Diagnostics]:
+    """Parse one file; to parse several texts, make one Parser."""
+    return Parser().module(source)
+
+
+def parse_predicate(source: Source) -> tuple[ast.Predicate | None, Diagnostics]:
+    """Parse one predicate of a skill bank."""
+    return Parser().predicate(source)
+
+
+def parse_expression(source: Source) -> tuple[ast.Expression | ast.Range | None, Diagnostics]:
+    """Parse one expression or range."""
+    return Parser().expression(source)
+
+
+def parse_role_expression(source: Source) -> tuple[ast.TypeExpr | None, Diagnostics]:
+    """Parse one role expression or value type."""
+    return Parser().role_expression(source)
+
+
+def _no_protocol(source: Source, module: ast.Module) -> Diagnostic:
+    span = Span(source.file, 0, 0)
+    if module.items:
+        return Diagnostic(
+            "XEI0103",
+            "this file has imports, but no protocol and no procedure",
+            module.items[-1].span,
+            "expected a `protocol` or `procedure` after this",
+            help=(f"a small protocol looks like this:\n{_MINIMAL}",),
+        )
+    message = "this file is empty" if not source.text.strip() else "this file has no protocol in it"
+    return Diagnostic("XEI0103", message, span, help=(f"a small protocol looks like this:\n{_MINIMAL}",))
+
+
+def _too_deep(span: Span) -> Diagnostic:
+    return Diagnostic(
+        "XEI0107",
+        f"this is nested more than {MAX_NESTING} levels deep",
+        span,
+        help=("move the inner part into a `procedure`, or name parts of a long expression with `let`",),
+    )

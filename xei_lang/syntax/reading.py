@@ -1,0 +1,49 @@
+"""Reading source files: the one place of the front end that touches the disk."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from xei_lang.diagnostics import Diagnostic, Diagnostics, Source
+
+MAX_BYTES = 16 * 1024 * 1024
+
+
+def read_source(path: Path, shown: str) -> tuple[Source | None, Diagnostics]:
+    """The text of a file, named `shown` in messages; None with a diagnostic where it cannot be had.
+
+    A byte order mark is kept out of the text. Line ends stay as they are.
+    """
+    try:
+        with path.open("rb") as file:
+            data = file.read(MAX_BYTES + 1)
+    except IsADirectoryError:
+        return None, (_unreadable(shown, "is a folder, not a file", "name a .xei file inside it"),)
+    except FileNotFoundError:
+        return None, (_unreadable(shown, "does not exist", ""),)
+    except PermissionError:
+        return None, (_unreadable(shown, "may not be read", "check the file's permissions"),)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        return None, (_unreadable(shown, f"cannot be read: {reason}", ""),)
+    if len(data) > MAX_BYTES:
+        message = f"`{shown}` is larger than {MAX_BYTES // 1024**2} MiB"
+        return None, (Diagnostic("XEI0107", message),)
+    try:
+        text = data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        return None, (_not_utf8(shown, data, error.start),)
+    return Source(shown, text.removeprefix("\ufeff")), ()
+
+
+def _unreadable(shown: str, reason: str, advice: str) -> Diagnostic:
+    return Diagnostic("XEI0101", f"`{shown}` {reason}", help=(advice,) if advice else ())
+
+
+def _not_utf8(shown: str, data: bytes, start: int) -> Diagnostic:
+    line = data.count(b"\n", 0, start) + 1
+    where = f"byte 0x{data[start]:02X} in line {line}, at offset {start}"
+    encodings = {b"\xff\xfe": "UTF-16", b"\xfe\xff": "UTF-16", b"PK": "a zip archive"}
+    likely = encodings.get(data[:2])
+    help_ = f"it looks like {likely}; save it as UTF-8" if likely else "save the file as UTF-8"
+    return Diagnostic("XEI0102", f"`{shown}` is not UTF-8 text", notes=(where,), help=(help_,))
