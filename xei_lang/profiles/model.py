@@ -82,7 +82,7 @@ class Element:
 
 @dataclass(frozen=True, slots=True)
 class Prior:
-    """Where an object is believed to be: in a place of another object, or at a pose in a frame."""
+    """Where an object is believed to be: in a place of another object, or (`in_object` empty) at a pose in a frame."""
 
     in_object: str
     in_key: str
@@ -90,6 +90,7 @@ class Prior:
     T_frame_object: Pose
     confidence: float
     span: Span
+    in_kind: Literal["", "slot", "spot"] = ""
 
 
 @dataclass(frozen=True, slots=True)

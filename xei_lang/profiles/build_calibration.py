@@ -1,0 +1,146 @@
+"""The calibration profile, from the validated model to dataclasses; ranges that it leaves out are the robot's."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from xei_lang.diagnostics import Diagnostic, Span, did_you_mean
+from xei_lang.profiles.build_objects import pose, vec3
+from xei_lang.profiles.model import CalibratedFrame, Calibration, PlanningLimit, RobotDescription, RobotJoint, SceneOrigin
+from xei_lang.profiles.schema.calibration import CalibrationProfile, LimitModel
+from xei_lang.profiles.yaml_tree import Node
+from xei_lang.quantity import Quantity
+from xei_lang.quantity.dimension import ANGLE, LENGTH
+
+
+def build_calibration(
+    model: CalibrationProfile, robot: RobotDescription, root: Node, found: list[Diagnostic]
+) -> Calibration:
+    """The calibration of a deployment; what does not fit the robot is said in `found`."""
+    docking = model.base.docking
+    return Calibration(
+        frames=tuple(_frames(model, root)),
+        limits=tuple(_limits(model, robot, root, found)),
+        stations=tuple(_stations(model, root)),
+        start_station=model.start_station,
+        table_height_m=model.table.height.si,
+        table_height_status=model.table.status,
+        table_bounds_m=(vec3(model.table.bounds.lower), vec3(model.table.bounds.upper)),
+        workspace_bounds_m=(vec3(model.workspace.lower), vec3(model.workspace.upper)),
+        map_frame=model.map.frame,
+        docking_position_tolerance_m=docking.position.si,
+        docking_rotation_tolerance_rad=docking.rotation.si,
+        base_speed_m_s=model.base.speed.si,
+        base_turn_rad_s=model.base.turn.si,
+        payload_kg=model.payload.si,
+        spill_tilt_rad=model.spill_tilt.si,
+        clearance_m=model.clearance.si,
+        placeholders=tuple(_placeholders(model, root)),
+        robot_frames=tuple(model.robot_frames.items()),
+    )
+
+
+def _frames(model: CalibrationProfile, root: Node) -> Iterator[CalibratedFrame]:
+    for name, frame in model.frames.items():
+        yield CalibratedFrame(
+            name=name,
+            parent=frame.parent,
+            T_parent_frame=pose(frame.position, frame.rpy),
+            status=frame.status,
+            measured_on=frame.measured_on or "",
+            method=frame.method,
+            position_tolerance_m=frame.tolerance.position.si,
+            rotation_tolerance_rad=frame.tolerance.rotation.si,
+            span=root.key_span("frames", name),
+        )
+
+
+def _stations(model: CalibrationProfile, root: Node) -> Iterator[SceneOrigin]:
+    for name, station in model.stations.items():
+        yield SceneOrigin(
+            name=name,
+            aliases=tuple(station.aliases),
+            T_world_base=pose(station.base.position, station.base.rpy),
+            status=station.status,
+            ground_frame=station.ground_frame,
+            slide_m=station.slide.si,
+            span=root.key_span("stations", name),
+        )
+
+
+def _limits(
+    model: CalibrationProfile, robot: RobotDescription, root: Node, found: list[Diagnostic]
+) -> Iterator[PlanningLimit]:
+    movable = [joint.name for joint in robot.joints if joint.kind != "fixed" and not joint.mimic]
+    for index, limit in enumerate(model.limits):
+        for position, name in enumerate(limit.joints):
+            span = root.span_of("limits", index, "joints", position)
+            joint = robot.joint(name)
+            if joint is None or name not in movable:
+                near = did_you_mean(name, movable)
+                help_ = f"did you mean `{near[0]}`?" if near else "joints that can be planned: " + ", ".join(movable)
+                found.append(Diagnostic("XEI0620", f"the robot has no joint `{name}` that can be planned", span,
+                                        label="unknown joint", help=(help_,)))  # fmt: skip
+            elif _units_fit(limit, joint, root, index, found):
+                yield _limit(limit, joint, span)
+
+
+def _limit(limit: LimitModel, joint: RobotJoint, span: Span) -> PlanningLimit:
+    effort = limit.torque or limit.force
+    return PlanningLimit(
+        joint=joint.name,
+        lower=limit.lower.si if limit.lower else joint.lower,
+        upper=limit.upper.si if limit.upper else joint.upper,
+        velocity=limit.velocity.si,
+        acceleration=limit.acceleration.si,
+        torque=effort.si if effort else joint.effort,
+        reason=limit.reason,
+        span=span,
+    )
+
+
+def _units_fit(limit: LimitModel, joint: RobotJoint, root: Node, index: int, found: list[Diagnostic]) -> bool:
+    base = LENGTH if joint.kind == "prismatic" else ANGLE
+    quantities: dict[str, Quantity | None] = {
+        "lower": limit.lower, "upper": limit.upper, "velocity": limit.velocity, "acceleration": limit.acceleration,
+    }  # fmt: skip
+    for key, value in quantities.items():
+        if value is None:
+            continue
+        wrong = value.dimension.angle != base.angle
+        if wrong:
+            wanted = "metres" if base == LENGTH else "radians or degrees"
+            message = f"`{joint.name}` is {joint.kind}, and `{value}` does not measure its {key}"
+            found.append(Diagnostic("XEI0610", message, root.span_of("limits", index, key), label=f"expected {wanted}"))
+            return False
+    wrong_effort = "torque" if joint.kind == "prismatic" and limit.torque else "force" if base == ANGLE and limit.force else ""
+    if wrong_effort:
+        other = "force" if wrong_effort == "torque" else "torque"
+        message = f"`{joint.name}` is {joint.kind}, and has a {other}, no {wrong_effort}"
+        found.append(Diagnostic("XEI0610", message, root.key_span("limits", index, wrong_effort), label=f"expected `{other}`"))
+        return False
+    return True
+
+
+def _placeholders(model: CalibrationProfile, root: Node) -> Iterator[tuple[str, Span]]:
+    """Everything that nobody has measured, in the order of the file's sections."""
+    for name, frame in model.frames.items():
+        if frame.status == "placeholder":
+            yield f"frame `{name}`: {frame.method}", root.key_span("frames", name)
+    for name, station in model.stations.items():
+        if station.status == "placeholder":
+            yield f"station `{name}`: drive there and record the base's pose", root.key_span("stations", name)
+    if model.base.docking.status == "placeholder":
+        yield "docking tolerance: measure it over repeated drives", root.key_span("base", "docking")
+    if model.table.status == "placeholder":
+        yield f"table height: {model.table.method}", root.key_span("table")
+    if model.map.status == "placeholder" or None in (model.map.yaml, model.map.image, model.map.sha256):
+        yield "map: build and record one", root.key_span("map")
+    if model.apriltags.status == "placeholder":
+        yield "AprilTags of the tables: stick them on and measure their places", root.key_span("apriltags")
+    for name, camera in model.cameras.items():
+        if camera.status == "placeholder":
+            yield f"camera `{name}`: calibrate its intrinsics", root.key_span("cameras", name)
+    for name, lidar in model.lidars.items():
+        if lidar.status == "placeholder":
+            yield f"lidar `{name}`: confirm its mount and topics", root.key_span("lidars", name)

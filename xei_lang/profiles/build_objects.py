@@ -1,0 +1,175 @@
+"""Objects of the usage profile and the registry, from validated models to dataclasses with places."""
+
+from __future__ import annotations
+
+import math
+import re
+
+from xei_lang.diagnostics import Diagnostic
+from xei_lang.ir.geometry import Box, Cylinder, Pose, Primitive, Shape, Vec3
+from xei_lang.profiles.model import (
+    Element, FiniteState, LabObject, Liquid, OperationDefault, Prior, SlotGrid, Spot,
+)  # fmt: skip
+from xei_lang.profiles.schema.usage import ObjectModel, PriorModel, ShapeModel
+from xei_lang.profiles.yaml_tree import Node, Path
+from xei_lang.quantity import Quantity
+
+_PLACE = re.compile(r"([a-z][a-z0-9_]*)\.(slot|spot)\(\s*\"([^\"]+)\"\s*\)")
+
+
+def vec3(values: list[Quantity] | None) -> Vec3:
+    """Three quantities in SI units; zero where nothing is given."""
+    x, y, z = (value.si for value in values) if values else (0.0, 0.0, 0.0)
+    return (x, y, z)
+
+
+def pose(position: list[Quantity] | None, rpy: list[Quantity] | None) -> Pose:
+    """A pose from a position and fixed-axis roll, pitch, yaw."""
+    return Pose.from_rpy(vec3(position), vec3(rpy))
+
+
+def build_object(
+    name: str, model: ObjectModel, root: Node, path: Path, system: bool, found: list[Diagnostic]
+) -> LabObject | None:
+    """The object that stands at `path`; None, with a diagnostic in `found`, where its parts do not fit together."""
+    shape = _shape(model.shape, root, (*path, "shape"), found)
+    parts = _parts(model, shape, root, path, found)
+    prior = _prior(model.prior, root, (*path, "prior"), found) if model.prior else None
+    if shape is None or parts is None:
+        return None
+    return LabObject(
+        name=name,
+        aliases=tuple(model.aliases),
+        roles=tuple(model.roles),
+        shape=shape,
+        geometry=parts,
+        size_m=_size(shape),
+        mass_kg=model.mass.si if model.mass else 0.0,
+        skills=tuple(model.skills),
+        states=_states(model, root, path),
+        liquid=_liquid(model),
+        grasp=operation_defaults(model.grasp, root, (*path, "grasp")),
+        slots=_slots(model, root, path),
+        spots=tuple(
+            Spot(key, pose(spot.position, spot.rpy), root.key_span(*path, "spots", key)) for key, spot in model.spots.items()
+        ),
+        elements=_elements(model, root, path),
+        prior=prior,
+        assets=(("mesh", model.assets.mesh), ("point_cloud", model.assets.point_cloud)),
+        system=system,
+        span=root.key_span(*path),
+    )
+
+
+def operation_defaults(values: dict[str, Quantity | str], root: Node, path: Path) -> tuple[OperationDefault, ...]:
+    """Operation parameters that a profile states, in the order in which it states them."""
+    return tuple(OperationDefault(key, value, root.span_of(*path, key)) for key, value in values.items())
+
+
+def _shape(model: ShapeModel, root: Node, path: Path, found: list[Diagnostic]) -> Shape | None:
+    if (model.box is None) == (model.cylinder is None):
+        found.append(Diagnostic("XEI0609", "a shape must be one of `box` and `cylinder`", root.span_of(*path),
+                                label="expected just one of the two"))  # fmt: skip
+        return None
+    shape: Shape
+    if model.box is not None:
+        shape = Box(vec3(model.box))
+    else:
+        assert model.cylinder is not None
+        shape = Cylinder(model.cylinder.diameter.si / 2, model.cylinder.height.si)
+    if min(_size(shape)) <= 0.0:
+        found.append(Diagnostic("XEI0640", "a shape must have a size above zero in every direction", root.span_of(*path),
+                                label="zero or negative"))  # fmt: skip
+        return None
+    return shape
+
+
+def _parts(
+    model: ObjectModel, shape: Shape | None, root: Node, path: Path, found: list[Diagnostic]
+) -> tuple[Primitive, ...] | None:
+    """The collision primitives: those given, else the shape itself standing on the object's frame."""
+    if model.collision is None:
+        return (Primitive(shape, Pose((0.0, 0.0, _size(shape)[2] / 2))),) if shape else None
+    parts: list[Primitive] = []
+    for index, part in enumerate(model.collision):
+        built = _shape(part, root, (*path, "collision", index), found)
+        if built is None:
+            return None
+        parts.append(Primitive(built, pose(part.position, part.rpy)))
+    return tuple(parts)
+
+
+def _size(shape: Shape) -> Vec3:
+    """The edges of the bounding box of a box or a cylinder, metres."""
+    if isinstance(shape, Box):
+        return shape.size_m
+    assert isinstance(shape, Cylinder)
+    return (2 * shape.radius_m, 2 * shape.radius_m, shape.height_m)
+
+
+def _states(model: ObjectModel, root: Node, path: Path) -> tuple[FiniteState, ...]:
+    return tuple(
+        FiniteState(key, tuple(state.values), state.initial, root.key_span(*path, "states", key))
+        for key, state in model.states.items()
+    )
+
+
+def _liquid(model: ObjectModel) -> Liquid | None:
+    liquid = model.liquid
+    return Liquid(liquid.capacity.si, liquid.dead_volume.si, liquid.inner_diameter.si) if liquid else None
+
+
+def _slots(model: ObjectModel, root: Node, path: Path) -> SlotGrid | None:
+    slots = model.slots
+    if slots is None:
+        return None
+    return SlotGrid(
+        rows=tuple(slots.rows),
+        columns=slots.columns,
+        pitch_m=(slots.pitch[0].si, slots.pitch[1].si),
+        origin_m=vec3(slots.origin),
+        bore_m=slots.bore.si,
+        chamfer_m=slots.chamfer.si,
+        depth_m=slots.depth.si,
+        accepts=tuple(slots.accepts),
+        span=root.key_span(*path, "slots"),
+    )
+
+
+def _elements(model: ObjectModel, root: Node, path: Path) -> tuple[Element, ...]:
+    return tuple(
+        Element(
+            key,
+            (item.center[0].si, item.center[1].si),
+            (item.size[0].si, item.size[1].si),
+            root.key_span(*path, "elements", key),
+        )
+        for key, item in model.elements.items()
+    )
+
+
+def _prior(model: PriorModel, root: Node, path: Path, found: list[Diagnostic]) -> Prior | None:
+    span = root.span_of(*path)
+    if (model.in_ is None) == (model.frame is None) or (model.frame and model.position is None):
+        found.append(
+            Diagnostic(
+                "XEI0609", "a prior names either a place or a pose in a frame", span,
+                label="expected `in`, or `frame` with `position`",
+                help=("""write `in: 'rack_1.slot("A1")'`, or `frame: table` with `position: [0.1 m, 0 m, 0 m]`""",),
+            )  # fmt: skip
+        )
+        return None
+    if model.in_ is None:
+        assert model.frame is not None
+        where = root.span_of(*path, "frame")
+        return Prior("", "", model.frame, pose(model.position, model.rpy), model.confidence, where)
+    match = _PLACE.fullmatch(model.in_.strip())
+    where = root.span_of(*path, "in")
+    if match is None:
+        found.append(Diagnostic("XEI0609", f"`{model.in_}` is not a place", where, label="expected a slot or a spot",
+                                help=("""write for example 'rack_1.slot("A1")' or 'table.spot("bottle")'""",)))  # fmt: skip
+        return None
+    kind = "slot" if match[2] == "slot" else "spot"
+    yaw = vec3(model.rpy)[2] if model.rpy else 0.0
+    turned = Pose.from_rpy((0.0, 0.0, 0.0), (0.0, 0.0, math.remainder(yaw, math.tau)))
+    return Prior(match[1], match[3], "", turned, model.confidence, where, kind)

@@ -1,0 +1,94 @@
+"""Compiled profiles: a frozen Profile on disk, used while no byte of its files and no line of the loader has changed.
+
+The form is a pickle that is read through an unpickler which makes nothing but xei's own dataclasses and exact fractions, so that
+a file that somebody else wrote into the cache cannot run code. Anything that is wrong with the cache means a slower load, and
+is no fault.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import io
+import os
+import pickle
+import sys
+import tempfile
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import xei_lang
+from xei_lang.diagnostics import Diagnostic, Diagnostics
+from xei_lang.profiles.files import ProfileFiles
+from xei_lang.profiles.model import Profile
+
+_PACKAGES = ("profiles", "profiles/checks", "profiles/schema", "diagnostics", "ir", "quantity", "syntax", "syntax/ast")
+
+
+def default_cache() -> Path:
+    """`$XDG_CACHE_HOME/xei`, else `~/.cache/xei` (XDG Base Directory Specification)."""
+    base = os.environ.get("XDG_CACHE_HOME", "")
+    return (Path(base) if os.path.isabs(base) else Path(os.path.expanduser("~/.cache"))) / "xei"
+
+
+def key_of(files: ProfileFiles) -> str:
+    """A name for what a load of these files gives: their bytes, where they are shown, and the code that reads them."""
+    digest = hashlib.sha256()
+    version = getattr(xei_lang, "__version__", "")
+    digest.update(repr((version, sys.version_info[:3], files.shown, files.hashes, _code())).encode())
+    return digest.hexdigest()
+
+
+def read(cache: Path, key: str) -> tuple[Profile, Diagnostics] | None:
+    """The compiled profile of this key, or None."""
+    try:
+        data = _path(cache, key).read_bytes()
+        profile, diagnostics = _Unpickler(io.BytesIO(data)).load()
+    except Exception:  # a damaged or foreign file may fail in any way; it then counts as absent
+        return None
+    if not isinstance(profile, Profile) or not all(isinstance(item, Diagnostic) for item in diagnostics):
+        return None
+    return profile, diagnostics
+
+
+def write(cache: Path, key: str, profile: Profile, diagnostics: Diagnostics) -> None:
+    """Store a profile; a reader sees the whole file or none. A cache that cannot be written stays as it is."""
+    with contextlib.suppress(OSError):
+        cache.mkdir(parents=True, exist_ok=True)
+        handle, temporary = tempfile.mkstemp(dir=cache, prefix=".profile-")
+        try:
+            with os.fdopen(handle, "wb") as file:
+                pickle.dump((profile, diagnostics), file, protocol=5)
+            os.replace(temporary, _path(cache, key))
+        except OSError:
+            os.unlink(temporary)
+            raise
+
+
+def _path(cache: Path, key: str) -> Path:
+    return cache / f"profile-{key[:40]}.pickle"
+
+
+def _code() -> tuple[tuple[str, int, int], ...]:
+    """Name, size and time of every module whose change could change what a load gives."""
+    root = os.path.dirname(os.path.abspath(xei_lang.__file__))
+    found: list[tuple[str, int, int]] = []
+    for package in _PACKAGES:
+        with contextlib.suppress(OSError), os.scandir(os.path.join(root, package)) as entries:
+            for entry in entries:
+                if entry.name.endswith(".py"):
+                    status = entry.stat()
+                    found.append((f"{package}/{entry.name}", status.st_size, status.st_mtime_ns))
+    return tuple(sorted(found))
+
+
+class _Unpickler(pickle.Unpickler):
+    def find_class(self, module: str, name: str) -> Any:
+        if (module, name) == ("fractions", "Fraction"):
+            return Fraction
+        if module.startswith("xei_lang.") and "." not in name:
+            found = super().find_class(module, name)
+            if isinstance(found, type) and hasattr(found, "__dataclass_fields__"):
+                return found
+        raise pickle.UnpicklingError(f"{module}.{name} has no place in a compiled profile")

@@ -1,0 +1,99 @@
+"""The files of a profile folder: what is there, its bytes' hashes, and the texts of those that are read."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+from xei_lang.diagnostics import Diagnostic, Source, Span
+
+DEVELOPMENT = "development_profile.yaml"
+CALIBRATION = "calibration_profile.yaml"
+REGISTRY = "object_registry.yaml"
+MAX_TEXT_BYTES = 2_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class ProfileFiles:
+    """A profile folder as read: `shown` is its path for messages, `hashes` the SHA-256 of each file below it, sorted."""
+
+    folder: Path
+    shown: str
+    hashes: tuple[tuple[str, str], ...]
+
+    def shown_path(self, name: str) -> str:
+        """The path of one of the files, as messages show it."""
+        return f"{self.shown}/{name}"
+
+
+def read_folder(folder: Path) -> ProfileFiles:
+    """Hash every file below the folder but hidden ones and Python's caches; raises OSError."""
+    hashes: list[tuple[str, str]] = []
+    for parent, folders, names in os.walk(folder, onerror=_raise):
+        folders[:] = [name for name in folders if name != "__pycache__" and not name.startswith(".")]
+        for name in names:
+            path = os.path.join(parent, name)
+            if not name.startswith(".") and os.path.isfile(path):
+                with open(path, "rb") as file:
+                    digest = hashlib.sha256(file.read()).hexdigest()
+                hashes.append((os.path.relpath(path, folder).replace(os.sep, "/"), digest))
+    return ProfileFiles(folder, shown_path(folder), tuple(sorted(hashes)))
+
+
+def shown_path(path: Path) -> str:
+    """The path as people expect it in messages: relative to the working folder where it lies below that."""
+    absolute = os.path.abspath(path)
+    here = os.getcwd()
+    below = absolute == here or absolute.startswith(here.rstrip(os.sep) + os.sep)
+    return (os.path.relpath(absolute, here) if below else absolute).replace(os.sep, "/")
+
+
+def read_text(files: ProfileFiles, name: str, found: list[Diagnostic]) -> Source | None:
+    """The text of one file; None, with a diagnostic, where it is missing, too large or no UTF-8."""
+    shown = files.shown_path(name)
+    if os.path.isabs(name) or ".." in name.split("/"):
+        found.append(Diagnostic("XEI0602", f"`{name}` would leave the profile's folder", Span(shown, 0, 0),
+                                help=("name a file inside the profile's folder",)))  # fmt: skip
+        return None
+    try:
+        data = (files.folder / name).read_bytes()
+    except OSError as error:
+        missing = isinstance(error, FileNotFoundError)
+        message = f"the profile has no `{name}`" if missing else f"`{name}` cannot be read: {error.strerror}"
+        found.append(
+            Diagnostic(
+                "XEI0602", message, Span(shown, 0, 0),
+                notes=(f"a profile is a folder with `{DEVELOPMENT}`, `{CALIBRATION}`, `{REGISTRY}` and the files that they name",),
+                help=(f"put it at `{shown}`" if missing else f"make `{shown}` a file that can be read",),
+            )  # fmt: skip
+        )
+        return None
+    if len(data) > MAX_TEXT_BYTES:
+        found.append(Diagnostic("XEI0602", f"`{name}` is larger than {MAX_TEXT_BYTES // 1_000_000} MB", Span(shown, 0, 0),
+                                help=("keep meshes and recordings in files of their own",)))  # fmt: skip
+        return None
+    return _decode(data, name, shown, found)
+
+
+def _decode(data: bytes, name: str, shown: str, found: list[Diagnostic]) -> Source | None:
+    try:
+        text = data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        line = data[: error.start].count(b"\n") + 1
+        column = error.start - (data.rfind(b"\n", 0, error.start) + 1) + 1
+        offset = len(data[: error.start].decode("utf-8"))
+        found.append(Diagnostic("XEI0602", f"`{name}` is not UTF-8 text", Span(shown, offset, offset + 1),
+                                label=f"byte 0x{data[error.start]:02x} at line {line}, byte {column}",
+                                help=("save the file as UTF-8",)))  # fmt: skip
+        return None
+    if text.startswith("\ufeff"):
+        found.append(Diagnostic("XEI0602", f"`{name}` begins with a byte order mark", Span(shown, 0, 1),
+                                help=("save the file as UTF-8 without a byte order mark",)))  # fmt: skip
+        return None
+    return Source(shown, text)
+
+
+def _raise(error: OSError) -> None:
+    raise error

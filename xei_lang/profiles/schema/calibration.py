@@ -1,0 +1,158 @@
+"""calibration_profile.yaml: geometric deployment facts."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from xei_lang.profiles.schema.values import (
+    Angle, AngleVector, AngularSpeed, Bounds, Force, JointAcceleration, JointPosition, JointVelocity, Length,
+    LengthVector, Mass, Model, Name, Speed, Status, Text, Tolerance, Torque,
+)  # fmt: skip
+
+
+class FrameModel(Model):
+    """A static transform, and how it is known."""
+
+    parent: Name
+    position: LengthVector | None = None
+    rpy: AngleVector | None = None
+    status: Status
+    measured_on: str | None = None
+    method: Text
+    tolerance: Tolerance
+
+
+class LimitModel(Model):
+    """Planning limits of joints that share them; a range that is not given is the robot description's."""
+
+    joints: list[Name] = Field(min_length=1)
+    lower: JointPosition | None = None
+    upper: JointPosition | None = None
+    velocity: JointVelocity
+    acceleration: JointAcceleration
+    torque: Torque | None = None
+    force: Force | None = None
+    reason: Text
+
+
+class BasePoseModel(Model):
+    """Where the base stands, in `world`."""
+
+    position: LengthVector
+    rpy: AngleVector
+
+
+class StationModel(Model):
+    """A scene origin: a stand of the base from which a bench is worked."""
+
+    aliases: list[Text] = []
+    base: BasePoseModel
+    status: Status
+    ground_frame: Name
+    slide: Length
+
+
+class DockingModel(Model):
+    """How well the base reaches a station (bounds)."""
+
+    position: Length
+    rotation: Angle
+    status: Status
+    remark: Text
+
+
+class BaseModelLimits(Model):
+    """The mobile base."""
+
+    speed: Speed
+    turn: AngularSpeed
+    docking: DockingModel
+
+
+class TableModel(Model):
+    """The table's height above the floor and the volume above it, in the table's frame."""
+
+    height: Length
+    status: Status
+    method: Text
+    bounds: Bounds
+
+
+class MapModel(Model):
+    """The map (ROS map_server) and the frame that it is in; null is a gap that blocks driving on hardware."""
+
+    frame: Name
+    yaml: str | None
+    image: str | None
+    sha256: str | None
+    status: Status
+
+
+class TagModel(Model):
+    """One AprilTag: the pose of its centre in a frame, z out of the paper."""
+
+    id: Annotated[int, Field(ge=0)]
+    size: Length
+    frame: Name
+    position: LengthVector
+    rpy: AngleVector
+
+
+class TagsModel(Model):
+    """The AprilTags that ground the tables."""
+
+    family: Text
+    status: Status
+    tags: list[TagModel]
+
+
+class IntrinsicsModel(Model):
+    """A pinhole camera in pixels."""
+
+    fx: Annotated[float, Field(gt=0)]
+    fy: Annotated[float, Field(gt=0)]
+    cx: float
+    cy: float
+    width: Annotated[int, Field(ge=1, le=20000)]
+    height: Annotated[int, Field(ge=1, le=20000)]
+    distortion: list[float]
+
+
+class CameraModel(Model):
+    """A camera: its frame, intrinsics and topics."""
+
+    frame: Name
+    status: Status
+    intrinsics: IntrinsicsModel
+    topics: dict[Name, Text]
+
+
+class LidarModel(Model):
+    """A lidar: its frame and topics."""
+
+    frame: Name
+    status: Status
+    topics: dict[Name, Text]
+
+
+class CalibrationProfile(Model):
+    """Frames, limits, stations, tolerances and sensors of one deployment."""
+
+    version: Literal[1]
+    robot_frames: dict[Name, Text]
+    frames: dict[Name, FrameModel]
+    limits: list[LimitModel]
+    start_station: Name
+    stations: dict[Name, StationModel]
+    base: BaseModelLimits
+    table: TableModel
+    workspace: Bounds
+    payload: Mass
+    spill_tilt: Angle
+    clearance: Length
+    map: MapModel
+    apriltags: TagsModel
+    cameras: dict[Name, CameraModel] = {}
+    lidars: dict[Name, LidarModel] = {}

@@ -1,0 +1,125 @@
+"""usage_profile.yaml: what is in the lab."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from xei_lang.profiles.schema.values import (
+    AngleVector, Count, Fraction01, Length, LengthVector, Mass, Model, Name, OperationValue, Text, Volume,
+)  # fmt: skip
+
+
+class CylinderSize(Model):
+    """A cylinder that stands on its bottom."""
+
+    diameter: Length
+    height: Length
+
+
+class ShapeModel(Model):
+    """Just one of: a box by its edges along x, y and z, or a cylinder."""
+
+    box: LengthVector | None = None
+    cylinder: CylinderSize | None = None
+
+
+class PartModel(ShapeModel):
+    """A collision primitive; `position` is its centre in the object's frame."""
+
+    position: LengthVector | None = None
+    rpy: AngleVector | None = None
+
+
+class LiquidModel(Model):
+    """What a container holds at most, and what it can never give back."""
+
+    capacity: Volume
+    dead_volume: Volume
+    inner_diameter: Length
+
+
+class StateModel(Model):
+    """A state that an object can be in."""
+
+    values: list[Name] = Field(min_length=1)
+    initial: Name
+
+
+class SlotsModel(Model):
+    """A grid of slots; `origin` is the mouth of the first one from the corner with the smallest x and y, z from the bottom."""
+
+    rows: list[str] = Field(min_length=1, max_length=100)
+    columns: Count
+    pitch: list[Length] = Field(min_length=2, max_length=2)
+    origin: LengthVector
+    bore: Length
+    chamfer: Length
+    depth: Length
+    accepts: list[Name]
+
+
+class SpotModel(Model):
+    """A named place: where the bottom centre of an object stands, in this object's frame."""
+
+    position: LengthVector
+    rpy: AngleVector | None = None
+
+
+class ElementModel(Model):
+    """An element of a touch screen, from the screen's bottom left corner: right and up."""
+
+    center: list[Length] = Field(min_length=2, max_length=2)
+    size: list[Length] = Field(min_length=2, max_length=2)
+
+
+class PriorModel(Model):
+    """Where an object is believed to be: `in` a place such as `rack_1.slot("A1")`, or at a pose in a frame."""
+
+    in_: str | None = Field(default=None, alias="in")
+    frame: Name | None = None
+    position: LengthVector | None = None
+    rpy: AngleVector | None = None
+    confidence: Fraction01
+
+
+class AssetsModel(Model):
+    """Files of an object; null is a gap that the startup checks list."""
+
+    mesh: str | None = None
+    point_cloud: str | None = None
+
+
+class ObjectModel(Model):
+    """An object: its frame is at its bottom centre, z up."""
+
+    aliases: list[Text] = []
+    roles: list[Name] = Field(min_length=1)
+    shape: ShapeModel
+    collision: list[PartModel] | None = None
+    assets: AssetsModel = AssetsModel()
+    mass: Mass | None = None
+    liquid: LiquidModel | None = None
+    states: dict[Name, StateModel] = {}
+    skills: list[Name] = []
+    grasp: dict[Name, OperationValue] = {}
+    slots: SlotsModel | None = None
+    spots: dict[Name, SpotModel] = {}
+    elements: dict[Name, ElementModel] = {}
+    prior: PriorModel | None = None
+
+
+class LiquidKindModel(Model):
+    """A liquid by its name in protocols."""
+
+    hazards: list[Name] = []
+
+
+class UsageProfile(Model):
+    """What is in the lab: objects, their places, liquids and what must not meet."""
+
+    version: Literal[1]
+    objects: dict[Name, ObjectModel]
+    liquids: dict[Name, LiquidKindModel] = {}
+    incompatible: list[list[Name]] = []
