@@ -8,11 +8,11 @@ first, its seven joints and its two fingers. Both fingers stand in `q`; the seco
 from __future__ import annotations
 
 import importlib
-import xml.etree.ElementTree as ElementTree
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any, Literal
+from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import NDArray
@@ -151,7 +151,7 @@ def load_robot(urdf_text: str, srdf_text: str) -> Robot:
     slide = groups["slide"][0] if groups.get("slide") else ""
     if slide not in names:
         raise ValueError("the SRDF has no group `slide` with a joint of the URDF")
-    arms = {side: _arm_chain(side, groups, names) for side in SIDES if f"{side}_arm" in groups}
+    arms: dict[Side, ArmChain] = {side: _arm_chain(side, groups, names) for side in SIDES if f"{side}_arm" in groups}
     return Robot(
         model=model,
         data=model.createData(),

@@ -37,8 +37,8 @@ def mirrored(vector: list[float], mirror: bool) -> list[float]:
 def box_lines(box: Figures, mirror: bool) -> tuple[str, str]:
     if "lower" in box:
         low, high = box["lower"], box["upper"]
-        center = [round((a + b) / 2, 9) for a, b in zip(low, high)]
-        size = [round(b - a, 9) for a, b in zip(low, high)]
+        center = [round((a + b) / 2, 9) for a, b in zip(low, high, strict=True)]
+        size = [round(b - a, 9) for a, b in zip(low, high, strict=True)]
     else:
         center, size = box["center"], box["size"]
     return origin(mirrored(center, mirror), box.get("rpy")), f'<box size="{numbers(size)}"/>'
@@ -46,10 +46,10 @@ def box_lines(box: Figures, mirror: bool) -> tuple[str, str]:
 
 def capsule_lines(capsule: Figures, mirror: bool) -> tuple[str, str]:
     p0, p1 = (mirrored(capsule[end], mirror) for end in ("p0", "p1"))
-    d = [b - a for a, b in zip(p0, p1)]
+    d = [b - a for a, b in zip(p0, p1, strict=True)]
     length = math.sqrt(sum(x * x for x in d))
     rpy = [0.0, math.atan2(math.hypot(d[0], d[1]), d[2]), math.atan2(d[1], d[0])]
-    center = [(a + b) / 2 for a, b in zip(p0, p1)]
+    center = [(a + b) / 2 for a, b in zip(p0, p1, strict=True)]
     cylinder = f'<cylinder radius="{number(capsule["radius"])}" length="{number(length)}"/>'
     return origin(center, rpy), cylinder
 
@@ -82,7 +82,8 @@ def link(name: str, figures: Figures, mirror: bool = False) -> list[str]:
     first = figures["shapes"][0].get("box", {})
     com = mirrored(figures.get("com") or first["center"], mirror)
     inertia = figures.get("inertia") or box_inertia(figures["mass"], first["size"])
-    terms = " ".join(f'{k}="{number(v)}"' for k, v in zip(("ixx", "ixy", "ixz", "iyy", "iyz", "izz"), inertia))
+    names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+    terms = " ".join(f'{name}="{number(value)}"' for name, value in zip(names, inertia, strict=True))
     inertial = f'{origin(com)}<mass value="{number(figures["mass"])}"/><inertia {terms}/>'
     shapes = shape_lines(name, figures["shapes"], mirror)
     return [f'  <link name="{name}">', f"    <inertial>{inertial}</inertial>", *shapes, "  </link>"]
@@ -93,11 +94,11 @@ def fixed(name: str, parent: str, child: str, xyz: list[float], rpy: list[float]
     return [f'  <joint name="{name}" type="fixed">{ends}{origin(xyz, rpy)}</joint>']
 
 
-def moving(kind: str, name: str, parent: str, child: str, figures: Figures, mimic: str = "") -> list[str]:
+def moving(kind: str, name: str, ends: tuple[str, str], figures: Figures, mimic: str = "") -> list[str]:
     limit = " ".join(f'{key}="{number(figures[key])}"' for key in ("lower", "upper", "velocity", "effort"))
     return [
         f'  <joint name="{name}" type="{kind}">',
-        f'    <parent link="{parent}"/><child link="{child}"/>{origin(figures["xyz"], figures.get("rpy"))}',
+        f'    <parent link="{ends[0]}"/><child link="{ends[1]}"/>{origin(figures["xyz"], figures.get("rpy"))}',
         f'    <axis xyz="{numbers(figures["axis"])}"/><limit {limit}/>{mimic}',
         "  </joint>",
     ]
@@ -121,7 +122,7 @@ def arm_joints(side: str, figures: Figures) -> list[str]:
     for index, right in enumerate(figures["joints"]["right"]):
         other = figures["joints"]["left"].get(right["name"], {}) if side == "left" else {}
         ends = (f"{prefix}link{index}", f"{prefix}link{index + 1}")
-        lines += moving("revolute", prefix + right["name"], *ends, {**right, **other})
+        lines += moving("revolute", prefix + right["name"], ends, {**right, **other})
     lines += fixed(f"{prefix}joint8", f"{prefix}link7", f"{prefix}link8", hand["link8_xyz"])
     lines += fixed(f"{prefix}hand_joint", f"{prefix}link8", f"{prefix}hand", hand["hand_xyz"])
     lines += fixed(f"{prefix}hand_tcp_joint", f"{prefix}hand", f"{prefix}hand_tcp", hand["hand_tcp_xyz"])
@@ -135,9 +136,10 @@ def finger_joints(prefix: str, figures: Figures) -> list[str]:
     first = {**common, "xyz": hand["right_finger_xyz"], "axis": [0, -1, 0]}
     second = {**common, "xyz": hand["left_finger_xyz"], "axis": [0, 1, 0]}
     mimic = f'<mimic joint="{prefix}finger_joint1" multiplier="1" offset="0"/>'
+    ends = ((f"{prefix}hand", f"{prefix}right_finger"), (f"{prefix}hand", f"{prefix}left_finger"))
     return [
-        *moving("prismatic", f"{prefix}finger_joint1", f"{prefix}hand", f"{prefix}right_finger", first),
-        *moving("prismatic", f"{prefix}finger_joint2", f"{prefix}hand", f"{prefix}left_finger", second, mimic),
+        *moving("prismatic", f"{prefix}finger_joint1", ends[0], first),
+        *moving("prismatic", f"{prefix}finger_joint2", ends[1], second, mimic),
     ]
 
 
@@ -146,7 +148,7 @@ def urdf(figures: Figures) -> str:
     slide_joint = {**slide["joint"], "xyz": slide["origin"], "axis": [0, 0, 1]}
     lines = [
         '<?xml version="1.0"?>',
-        "<!-- Written by generate.py from figures.yaml, which names the source of each figure. Do not edit. -->",
+        "<!-- Written by generate.py from figures.yaml, which names each figure's source. Do not edit. -->",
         "<!-- limit: velocity is the rated speed and effort the rated torque of the motor;",
         "     what a plan may use stands in calibration_profile.yaml. -->",
         '<robot name="openarm_mobile">',
@@ -155,7 +157,7 @@ def urdf(figures: Figures) -> str:
         *link("slide_carriage", slide["carriage"]),
         *link("openarm_body_link0", figures["body"]),
         *fixed("slide_column_joint", "base_link", "slide_column", [0.0, 0.0, 0.0]),
-        *moving("prismatic", "slide_joint", "base_link", "slide_carriage", slide_joint),
+        *moving("prismatic", "slide_joint", ("base_link", "slide_carriage"), slide_joint),
         *fixed("openarm_body_mount_joint", "slide_carriage", "openarm_body_link0", [0.0, 0.0, 0.0]),
     ]
     for side in SIDES:
@@ -177,7 +179,7 @@ def arm_states(side: str, figures: Figures) -> list[str]:
     lines: list[str] = []
     for name, values in states["arm"].items():
         signs = states["left_sign"] if side == "left" else [1] * 7
-        named = {f"openarm_{side}_joint{i + 1}": s * v for i, (s, v) in enumerate(zip(signs, values))}
+        named = {f"openarm_{side}_joint{i + 1}": s * v for i, (s, v) in enumerate(zip(signs, values, strict=True))}
         lines += state(name, f"{side}_arm", named)
     for name, value in states["gripper"].items():
         lines += state(name, f"{side}_gripper", {f"openarm_{side}_finger_joint1": value})

@@ -16,8 +16,9 @@ _RADIANS_OF_ROUNDING = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Elbow:
-    """`upper_arm` leads from the elbow to the shoulder and `forearm` to the wrist, at q4 = 0; `axis` is the hinge.
+    """Vectors are in base_link at q4 = 0; `across_x` is axis x x, and `across_axis` the matrix S with `x @ S = x x axis`.
 
+    `upper_arm` leads from the elbow to the shoulder and `forearm` to the wrist; `axis` is the hinge.
     |wrist - shoulder|^2 = |upper_arm|^2 + |forearm|^2 - 2 amplitude cos(q4 - phase), by the law of cosines.
     `bends` are the signs of sin(q4 - phase) that the limits leave; `reach_m` the least and greatest distance.
     """
@@ -25,6 +26,9 @@ class Elbow:
     upper_arm: Array
     forearm: Array
     axis: Array
+    across_upper_arm: Array
+    across_forearm: Array
+    across_axis: Array
     squares: float
     phase: float
     amplitude: float
@@ -46,9 +50,8 @@ class Elbow:
     def frames(self, angle: Array) -> tuple[Array, Array]:
         """Frame (m, 3, 3) with x from shoulder to wrist and y the hinge, seen before joint 4 and seen after it."""
         cosine, sine = np.cos(angle)[:, None], np.sin(angle)[:, None]
-        across_forearm, across_upper_arm = np.cross(self.axis, self.forearm), np.cross(self.axis, self.upper_arm)
-        before = cosine * self.forearm + sine * across_forearm - self.upper_arm
-        after = self.forearm - cosine * self.upper_arm + sine * across_upper_arm
+        before = cosine * self.forearm + sine * self.across_forearm - self.upper_arm
+        after = self.forearm - cosine * self.upper_arm + sine * self.across_upper_arm
         return self._frame(before), self._frame(after)
 
     def bend_of(self, angle: float) -> float:
@@ -60,7 +63,7 @@ class Elbow:
         frame = np.empty((len(along), 3, 3))
         frame[:, :, 0] = along / np.sqrt((along * along).sum(axis=1, keepdims=True))
         frame[:, :, 1] = self.axis
-        frame[:, :, 2] = frame[:, :, 0] @ _skew(self.axis)
+        frame[:, :, 2] = frame[:, :, 0] @ self.across_axis
         return frame
 
 
@@ -68,17 +71,23 @@ def elbow(geometry: SrsGeometry) -> Elbow:
     v, u, a = geometry.shoulder - geometry.elbow, geometry.wrist - geometry.elbow, geometry.elbow_axis
     even, odd = float(v @ u), float(v @ np.cross(a, u))
     phase, amplitude = float(np.arctan2(odd, even)), float(np.hypot(even, odd))
-    lower, upper = float(geometry.lower[3]), float(geometry.upper[3])
-    inside = np.linspace(lower, upper, 103)
-    sines = np.sin(inside[1:-1] - phase)
     squares = float(u @ u + v @ v)
+    lower, upper = float(geometry.lower[3]), float(geometry.upper[3])
+    sines = np.sin(np.linspace(lower, upper, 103)[1:-1] - phase)
     extremes = [t for t in (phase, phase + np.pi, phase - np.pi) if lower <= t <= upper]
     distances = [np.sqrt(max(0.0, squares - 2 * amplitude * np.cos(t - phase))) for t in (lower, upper, *extremes)]
-    bends = tuple(sign for sign in (1.0, -1.0) if bool(np.any(sign * sines > 1e-9)))
-    return Elbow(v, u, a, squares, phase, amplitude, lower, upper, bends, (float(min(distances)), float(max(distances))))
-
-
-def _skew(axis: Array) -> Array:
-    """Matrix S with `x @ S = cross(x, axis)` for row vectors x."""
-    x, y, z = (float(value) for value in axis)
-    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return Elbow(
+        upper_arm=v,
+        forearm=u,
+        axis=a,
+        across_upper_arm=np.cross(a, v),
+        across_forearm=np.cross(a, u),
+        across_axis=np.array([[0.0, -a[2], a[1]], [a[2], 0.0, -a[0]], [-a[1], a[0], 0.0]]),
+        squares=squares,
+        phase=phase,
+        amplitude=amplitude,
+        lower=lower,
+        upper=upper,
+        bends=tuple(sign for sign in (1.0, -1.0) if bool(np.any(sign * sines > 1e-9))),
+        reach_m=(float(min(distances)), float(max(distances))),
+    )

@@ -93,7 +93,7 @@ def _axes(robot: Robot, joint_names: tuple[str, ...]) -> tuple[Array, Array]:
 def _meeting_point(points: Array, axes: Array) -> Array | None:
     """The point nearest to all lines, or None where it misses one of them."""
     projectors = np.eye(3) - axes[:, :, None] * axes[:, None, :]
-    point = np.linalg.solve(projectors.sum(axis=0), np.einsum("kij,kj->i", projectors, points))
+    point: Array = np.linalg.solve(projectors.sum(axis=0), np.einsum("kij,kj->i", projectors, points))
     misses = np.linalg.norm(np.einsum("kij,kj->ki", projectors, point - points), axis=1)
     return point if float(misses.max()) < INTERSECTION_TOLERANCE_M else None
 

@@ -26,28 +26,31 @@ from xei_lang.motion.robot import Array
 
 CONFIGURATIONS_PER_POSE = 20
 _ON_FIRST_AXIS = 1e-6
+_NARROWEST_RAD = 1e-12
+_SIGNS = np.array([1.0, -1.0])
 
 
 @dataclass(frozen=True, slots=True)
 class _Poses:
-    """Tool poses with all but the swivel angle settled: entries (m, 3, 5) of both spherical joints, elbow (m,)."""
+    """Tool poses with all but the swivel angle settled: entries (m, 2, 3, 5) of shoulder and wrist, elbow (m,)."""
 
-    shoulder: Array
-    wrist: Array
+    entries: Array
     elbow: Array
     valid: swivel.Mask
 
 
 @dataclass(frozen=True, slots=True)
 class SrsArm:
-    """The closed-form solver of one arm; see `Solver` for its methods. Make one with `srs_arm`."""
+    """The closed-form solver of one arm; see `Solver` for its methods. Make one with `srs_arm`.
+
+    `shoulder_flips` and `wrist_flips` (b,) tell each branch that limits leave: 0 the sign +1, 1 the sign -1.
+    """
 
     geometry: SrsGeometry
     elbow: Elbow
-    shoulder_limits: swivel.Limits
-    wrist_limits: swivel.Limits
-    shoulder_flips: Array
-    wrist_flips: Array
+    limits: swivel.Limits
+    shoulder_flips: NDArray[np.int64]
+    wrist_flips: NDArray[np.int64]
 
     @property
     def name(self) -> str:
@@ -70,10 +73,10 @@ class SrsArm:
         count = len(T_base_tool)
         poses = self._poses(T_base_tool, slide_m, _sign(branch, 4))
         angle = np.broadcast_to(np.asarray(swivel_angle, dtype=np.float64), (count,))
-        flips = (np.array([_sign(branch, 1)]), np.array([_sign(branch, 2)]))
-        q = self._assemble(poses, np.arange(count), angle, flips)
-        valid = poses.valid & swivel.within(q[:, :3], self.shoulder_limits) & swivel.within(q[:, 4:], self.wrist_limits)
-        return np.clip(q, self.geometry.lower, self.geometry.upper), valid
+        flips = np.array([[_sign(branch, 1)], [_sign(branch, 2)]])
+        turned = swivel.joint_angles(poses.entries, angle, flips, self.limits)
+        valid = poses.valid & swivel.within(turned, self.limits)[:, :, 0].all(axis=1)
+        return self._assembled(turned, poses.elbow), valid
 
     def describe(self, q_arm: Array) -> tuple[float, int]:
         g = self.geometry
@@ -102,7 +105,7 @@ class SrsArm:
         basis = self.geometry.shoulder_joint.basis
         frame = np.empty((len(along), 3, 3))
         x = along / np.sqrt((along * along).sum(axis=1, keepdims=True))
-        y = basis[:, 2] - (x @ basis[:, 2:]) * x
+        y: Array = basis[:, 2] - (x @ basis[:, 2:]) * x
         length = np.sqrt((y * y).sum(axis=1, keepdims=True))
         on_axis = length[:, 0] < _ON_FIRST_AXIS
         if on_axis.any():
@@ -123,77 +126,60 @@ class SrsArm:
         before, after = self.elbow.frames(angle)
         reference = self._reference_frame(along)
         turned = g.R_base_tool_zero.T @ g.wrist_joint.after
-        shoulder = swivel.entries(g.shoulder_joint.basis.T @ reference, g.shoulder_joint.after.T @ before, 1.0)
-        tool = (T_base_tool[:, :3, :3] @ turned).transpose(0, 2, 1)
-        wrist = swivel.entries(g.wrist_joint.basis.T @ after, tool @ reference, -1.0)
-        return _Poses(shoulder, wrist, angle, valid)
+        left, right = np.empty((2, len(along), 2, 3, 3))
+        np.matmul(g.shoulder_joint.basis.T, reference, out=left[:, 0])
+        np.matmul(g.wrist_joint.basis.T, after, out=left[:, 1])
+        np.matmul(g.shoulder_joint.after.T, before, out=right[:, 0])
+        np.matmul((T_base_tool[:, :3, :3] @ turned).transpose(0, 2, 1), reference, out=right[:, 1])
+        return _Poses(swivel.entries(left, right), angle, valid)
 
     def _solve_bend(self, T_base_tool: Array, slide_m: float | Array, bend: float) -> list[Solutions]:
         poses = self._poses(T_base_tool, slide_m, bend)
-        at_shoulder = swivel.critical_angles(poses.shoulder, self.shoulder_limits)
-        cuts = np.concatenate([at_shoulder, swivel.critical_angles(poses.wrist, self.wrist_limits)], axis=1)
-        cuts.sort(axis=1)
+        cuts = swivel.critical_angles(poses.entries, self.limits)
         samples = swivel.sample_intervals(cuts, self._feasible(poses, cuts), CONFIGURATIONS_PER_POSE)
-        shoulder_flips, wrist_flips = self._columns()
-        flips = (shoulder_flips[samples.column, None], wrist_flips[samples.column, None])
-        q = self._assemble(poses, samples.row, samples.angle, flips)
-        q = np.minimum(np.maximum(q, self.geometry.lower), self.geometry.upper)
-        branches = (shoulder_flips < 0) + 2 * (wrist_flips < 0) + (4 if bend < 0 else 0)
+        flips = np.empty((len(samples.angle), 2, 1))
+        flips[:, 0, 0] = _SIGNS[self.shoulder_flips[samples.column]]
+        flips[:, 1, 0] = _SIGNS[self.wrist_flips[samples.column]]
+        turned = swivel.joint_angles(poses.entries[samples.row], samples.angle, flips, self.limits)
+        q = self._assembled(turned, poses.elbow[samples.row])
+        branch = (self.shoulder_flips + 2 * self.wrist_flips + (4 if bend < 0 else 0))[samples.column]
+        angle = swivel.wrapped(samples.angle)
         ends = np.searchsorted(samples.row, np.arange(len(T_base_tool) + 1)).tolist()
-        angle, branch = swivel.wrapped(samples.angle), branches[samples.column]
         return [Solutions(q[a:b], angle[a:b], branch[a:b]) for a, b in zip(ends, ends[1:], strict=False)]
-
-    def _columns(self) -> tuple[Array, Array]:
-        """Signs of shoulder and wrist for each column of the feasibility table."""
-        return np.repeat(self.shoulder_flips, len(self.wrist_flips)), np.tile(self.wrist_flips, len(self.shoulder_flips))
 
     def _feasible(self, poses: _Poses, cuts: Array) -> swivel.Mask:
         """Whether each interval (m, k) between cuts is within limits, for each branch: (m, b, k)."""
-        g = self.geometry
         following = np.concatenate([cuts[:, 1:], cuts[:, :1] + swivel.TWO_PI], axis=1)
-        weights = _weights((cuts + following) / 2)
-        shoulder = swivel.joint_angles(
-            weights @ poses.shoulder, self.shoulder_flips, g.shoulder_joint.offset, self.shoulder_limits
-        )
-        wrist = swivel.joint_angles(weights @ poses.wrist, self.wrist_flips, g.wrist_joint.offset, self.wrist_limits)
-        wide = (following - cuts > 1e-12) & poses.valid[:, None]
-        fits = swivel.within(shoulder, self.shoulder_limits)[..., None] & swivel.within(wrist, self.wrist_limits)[..., None, :]
-        return (fits & wide[..., None, None]).reshape(*cuts.shape, -1).transpose(0, 2, 1)
+        turned = swivel.joint_angles(poses.entries[:, None], (cuts + following) / 2, _SIGNS, self.limits)
+        fits = swivel.within(turned, self.limits)
+        wide = (following - cuts > _NARROWEST_RAD) & poses.valid[:, None]
+        both = fits[:, :, 0, self.shoulder_flips] & fits[:, :, 1, self.wrist_flips] & wide[:, :, None]
+        return both.transpose(0, 2, 1)
 
-    def _assemble(self, poses: _Poses, row: NDArray[np.int64], angle: Array, flips: tuple[Array, Array]) -> Array:
-        """Configurations (n, 7) at swivel angles (n,) of poses `row` (n,); signs (n, 1), or (1,) for all rows."""
-        g = self.geometry
-        weights = _weights(angle)[:, None, :]
-        shoulder, wrist = (weights @ poses.shoulder[row])[:, 0], (weights @ poses.wrist[row])[:, 0]
-        q = np.empty((len(angle), 7))
-        q[:, :3] = swivel.joint_angles(shoulder, flips[0], g.shoulder_joint.offset, self.shoulder_limits)[:, 0]
-        q[:, 3] = poses.elbow[row]
-        q[:, 4:] = swivel.joint_angles(wrist, flips[1], g.wrist_joint.offset, self.wrist_limits)[:, 0]
-        return q
+    def _assembled(self, turned: Array, elbow_angle: Array) -> Array:
+        """Configurations (n, 7), rounding at the limits cut off."""
+        q = np.empty((len(turned), 7))
+        q[:, :3], q[:, 3], q[:, 4:] = turned[:, 0, 0], elbow_angle, turned[:, 1, 0]
+        return np.minimum(np.maximum(q, self.geometry.lower), self.geometry.upper)
 
 
 def srs_arm(geometry: SrsGeometry) -> SrsArm:
-    lower, upper = geometry.lower, geometry.upper
+    lower, upper = geometry.lower[[[0, 1, 2], [4, 5, 6]]], geometry.upper[[[0, 1, 2], [4, 5, 6]]]
+    joints = (geometry.shoulder_joint, geometry.wrist_joint)
+    shoulder, wrist = (
+        swivel.possible_flips(joint, float(lower[k, 1]), float(upper[k, 1])) for k, joint in enumerate(joints)
+    )
     return SrsArm(
         geometry=geometry,
         elbow=elbow(geometry),
-        shoulder_limits=swivel.limits(geometry.shoulder_joint, lower[:3], upper[:3]),
-        wrist_limits=swivel.limits(geometry.wrist_joint, lower[4:], upper[4:]),
-        shoulder_flips=swivel.possible_flips(geometry.shoulder_joint, float(lower[1]), float(upper[1])),
-        wrist_flips=swivel.possible_flips(geometry.wrist_joint, float(lower[5]), float(upper[5])),
+        limits=swivel.limits(joints, lower, upper),
+        shoulder_flips=np.repeat(np.array(shoulder), len(wrist)),
+        wrist_flips=np.tile(np.array(wrist), len(shoulder)),
     )
 
 
 def _sign(branch: int, bit: int) -> float:
     return -1.0 if branch & bit else 1.0
-
-
-def _weights(angle: Array) -> Array:
-    """(..., 3): 1, cos and sin of each angle."""
-    result = np.ones((*angle.shape, 3))
-    np.cos(angle, out=result[..., 1])
-    np.sin(angle, out=result[..., 2])
-    return result
 
 
 def _rotation(joint: Spherical, q: Array) -> Array:

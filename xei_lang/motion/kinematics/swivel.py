@@ -23,54 +23,60 @@ ANGLE_TOLERANCE = 1e-9
 # Entries of M = Rz(q1) Ry(t) Rz(q3) in the order that this file keeps them: M22, M02, M12, M20, M21.
 _ROWS = np.array([2, 0, 1, 2, 2])
 _COLUMNS = np.array([2, 2, 2, 0, 1])
+_TURN = np.array([[1.0], [-1.0]])
 
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """Limits of several joints (k,) and the linear equations (2k, 5) whose roots are where a joint meets one."""
+    """Two spherical joints' limits (2, 1, 3), and the equations (2, 5, 6) and constants (2, 6) of meeting one."""
 
     lower: Array
     upper: Array
     middle: Array
+    offset: Array
     equations: Array
     constants: Array
 
 
-def limits(joint: Spherical, lower: Array, upper: Array) -> Limits:
-    """For the three joints of a spherical joint, limits (3,)."""
-    equations, constants = np.zeros((6, 5)), np.zeros(6)
-    for row, (low_or_high, angle) in enumerate((side, k) for side in (lower, upper) for k in range(3)):
-        limit = float(low_or_high[angle])
-        if angle == 0:
-            equations[row, 2], equations[row, 1] = np.cos(limit), -np.sin(limit)
-        elif angle == 1:
-            equations[row, 0], constants[row] = 1.0, -np.cos(limit + joint.offset)
-        else:
-            equations[row, 4], equations[row, 3] = np.cos(limit), np.sin(limit)
-    return Limits(lower, upper, (lower + upper) / 2, equations, constants)
+def limits(joints: tuple[Spherical, Spherical], lower: Array, upper: Array) -> Limits:
+    """For shoulder and wrist, limits (2, 3) in rad."""
+    equations, constants = np.zeros((2, 5, 6)), np.zeros((2, 6))
+    for k, joint in enumerate(joints):
+        for side, (first, second, third) in enumerate((lower[k], upper[k])):
+            equations[k, 1:3, 3 * side] = -np.sin(first), np.cos(first)
+            equations[k, 0, 3 * side + 1] = 1.0
+            constants[k, 3 * side + 1] = -np.cos(second + joint.offset)
+            equations[k, 3:5, 3 * side + 2] = np.sin(third), np.cos(third)
+    middle = (lower + upper) / 2
+    offset = np.array([joint.offset for joint in joints])[:, None]
+    return Limits(lower[:, None], upper[:, None], middle[:, None], offset, equations, constants)
 
 
-def entries(left: Array, right: Array, sign: float) -> Array:
-    """Coefficients (m, 3, 5) of 1, cos and sin of psi in the kept entries of `left Rx(sign psi) right.T`, both (m, 3, 3)."""
-    p, q = left[:, _ROWS, :], right[:, _COLUMNS, :]
-    result = np.empty((len(left), 3, 5))
-    result[:, 0] = p[..., 0] * q[..., 0]
-    result[:, 1] = p[..., 1] * q[..., 1] + p[..., 2] * q[..., 2]
-    result[:, 2] = sign * (p[..., 2] * q[..., 1] - p[..., 1] * q[..., 2])
+def entries(left: Array, right: Array) -> Array:
+    """Coefficients (m, 2, 3, 5) of 1, cos and sin of psi in the kept entries of `left Rx(psi) right.T`.
+
+    left, right: (m, 2, 3, 3) for shoulder and wrist; the wrist turns by -psi.
+    """
+    p, q = left[:, :, _ROWS, :], right[:, :, _COLUMNS, :]
+    result = np.empty((len(left), 2, 3, 5))
+    np.multiply(p[..., 0], q[..., 0], out=result[:, :, 0])
+    result[:, :, 1] = p[..., 1] * q[..., 1] + p[..., 2] * q[..., 2]
+    result[:, :, 2] = (p[..., 2] * q[..., 1] - p[..., 1] * q[..., 2]) * _TURN
     return result
 
 
 def critical_angles(coefficients: Array, bounds: Limits) -> Array:
-    """Angles (m, 12) in [-pi, pi) at which a joint may meet a limit; -pi stands where an equation has no root."""
-    equations = coefficients @ bounds.equations.T
-    constant = equations[:, 0] + bounds.constants
-    cosine, sine = equations[:, 1], equations[:, 2]
-    amplitude = np.sqrt(cosine * cosine + sine * sine)
+    """Sorted angles (m, 24) in [-pi, pi) at which a joint may meet a limit; -pi stands for each root that is not there."""
+    equations = coefficients @ bounds.equations
+    constant = equations[:, :, 0] + bounds.constants
+    cosine, sine = equations[:, :, 1], equations[:, :, 2]
     with np.errstate(invalid="ignore", divide="ignore"):
-        half = np.arccos(-constant / amplitude)
+        half = np.arccos(-constant / np.sqrt(cosine * cosine + sine * sine))
     centre = np.arctan2(sine, cosine)
-    roots = np.concatenate([centre - half, centre + half], axis=1)
-    return np.nan_to_num(wrapped(roots), nan=-np.pi)
+    roots = wrapped(np.stack([centre - half, centre + half], axis=1).reshape(len(coefficients), -1))
+    angles = np.fmax(roots, -np.pi)
+    angles.sort(axis=1)
+    return angles
 
 
 def wrapped(angle: Array) -> Array:
@@ -78,32 +84,38 @@ def wrapped(angle: Array) -> Array:
     return angle - TWO_PI * np.floor(angle / TWO_PI + 0.5)
 
 
-def joint_angles(values: Array, flips: Array, offset: float, bounds: Limits) -> Array:
-    """Joint angles (..., f, 3) from the kept entries (..., 5), one row for each sign in `flips` (f,) or (..., f).
+def joint_angles(coefficients: Array, swivel_angle: Array, flips: Array, bounds: Limits) -> Array:
+    """Joint angles (n, ..., 2, f, 3) at swivel angles (n, ...) of shoulder and wrist, one row for each flip.
 
-    The sign is that of sin(q2 + offset). Each angle is the representative nearest to the middle of its limits.
+    coefficients: (n, 2, 3, 5) as `entries` gives them. flips: broadcast to (..., 2, f), the sign of sin(q2 + offset). Each angle is the
+    representative nearest to the middle of its limits.
     """
+    weights = np.ones((*swivel_angle.shape, 3))
+    np.cos(swivel_angle, out=weights[..., 1])
+    np.sin(swivel_angle, out=weights[..., 2])
+    values = (weights[..., None, None, :] @ coefficients)[..., 0, :]
     m22, m02, m12, m20, m21 = (values[..., None, k] for k in range(5))
     result = np.empty((*values.shape[:-1], flips.shape[-1], 3))
     np.arctan2(flips * m12, flips * m02, out=result[..., 0])
     np.arctan2(flips * np.sqrt(m02 * m02 + m12 * m12), m22, out=result[..., 1])
     np.arctan2(flips * m21, -flips * m20, out=result[..., 2])
-    result[..., 1] -= offset
+    result[..., 1] -= bounds.offset
     result -= bounds.middle
-    result -= TWO_PI * np.round(result / TWO_PI)
+    result -= TWO_PI * np.rint(result / TWO_PI)
     result += bounds.middle
     return result
 
 
-def within(angles: Array, bounds: Limits, tolerance: float = ANGLE_TOLERANCE) -> Mask:
-    """Whether all joints (..., 3) are within limits."""
-    return np.all((angles >= bounds.lower - tolerance) & (angles <= bounds.upper + tolerance), axis=-1)
+def within(angles: Array, bounds: Limits) -> Mask:
+    """Whether all three joints of angles (..., 2, f, 3) are within limits."""
+    inside: Mask = (angles >= bounds.lower - ANGLE_TOLERANCE) & (angles <= bounds.upper + ANGLE_TOLERANCE)
+    return np.logical_and.reduce(inside, axis=-1)
 
 
-def possible_flips(joint: Spherical, lower: float, upper: float) -> Array:
-    """The signs of sin(q2 + offset) that the middle joint's limits leave."""
+def possible_flips(joint: Spherical, lower: float, upper: float) -> tuple[int, ...]:
+    """Which of the signs +1 (0) and -1 (1) of sin(q2 + offset) the middle joint's limits leave."""
     sines = np.sin(np.linspace(lower, upper, 103)[1:-1] + joint.offset)
-    return np.array([sign for sign in (1.0, -1.0) if bool(np.any(sign * sines > 1e-9))])
+    return tuple(flip for flip, sign in enumerate((1.0, -1.0)) if bool(np.any(sign * sines > 1e-9)))
 
 
 @dataclass(frozen=True, slots=True)
