@@ -57,7 +57,7 @@ _ENTRIES = {
     "XEI0643": Entry("an object below the surface that it should stand on"),
     "XEI0650": Entry("the robot's description cannot be read"),
     "XEI0651": Entry("a planning limit that does not fit the robot"),
-    "XEI0660": Entry("the world cannot be grounded"),
+    "XEI0660": Entry("an object that no source places in the world", "info"),
     # 07xx lowering and operation parameters
     # 08xx motion
     # 09xx running, bundles and traces

@@ -13,7 +13,6 @@ import io
 import os
 import pickle
 import sys
-import tempfile
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -54,6 +53,8 @@ def read(cache: Path, key: str) -> tuple[Profile, Diagnostics] | None:
 
 def write(cache: Path, key: str, profile: Profile, diagnostics: Diagnostics) -> None:
     """Store a profile; a reader sees the whole file or none. A cache that cannot be written stays as it is."""
+    import tempfile
+
     with contextlib.suppress(OSError):
         cache.mkdir(parents=True, exist_ok=True)
         handle, temporary = tempfile.mkstemp(dir=cache, prefix=".profile-")

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Literal
 
 from xei_lang.diagnostics import Span
 from xei_lang.ir.geometry import Pose, Primitive, Shape, Vec3
-from xei_lang.ir.goals import GoalKind
 from xei_lang.quantity import Quantity
 
 if TYPE_CHECKING:
+    from xei_lang.ir.goals import GoalKind
     from xei_lang.syntax.ast import Predicate, TypeExpr
 
 Status = Literal["measured", "estimated", "placeholder"]

@@ -1,0 +1,127 @@
+"""Places in and on objects: which there are, where they are, and what stands in them at the start.
+
+Pure Python, because name checking needs it before anything heavy is loaded.
+"""
+
+from __future__ import annotations
+
+from xei_lang.diagnostics import did_you_mean
+from xei_lang.ir.geometry import Pose, Vec3
+from xei_lang.ir.skill_plan import PlaceRef
+from xei_lang.profiles.model import LabObject, Profile, SlotGrid
+
+
+def place_text(place: PlaceRef) -> str:
+    """The place as the language writes it: `rack_1.slot("A1")`, `table.spot("bottle")`, `table`."""
+    return f'{place.object}.{place.kind}("{place.key}")' if place.key else place.object
+
+
+def slots(item: LabObject) -> tuple[PlaceRef, ...]:
+    """All slots, row by row: A1 A2 ... B1 B2 ...; empty where the object has none."""
+    grid = item.slots
+    if grid is None:
+        return ()
+    return tuple(_slot(item, f"{row_name}{j}") for row_name in grid.rows for j in range(1, grid.columns + 1))
+
+
+def row(item: LabObject, name: str) -> tuple[PlaceRef, ...]:
+    """The slots of a row by column; empty where the object has no such row."""
+    grid = item.slots
+    if grid is None or name not in grid.rows:
+        return ()
+    return tuple(_slot(item, f"{name}{j}") for j in range(1, grid.columns + 1))
+
+
+def column(item: LabObject, number: int) -> tuple[PlaceRef, ...]:
+    """The slots of a column, counted from 1, by row; empty where the object has no such column."""
+    grid = item.slots
+    if grid is None or not 1 <= number <= grid.columns:
+        return ()
+    return tuple(_slot(item, f"{name}{number}") for name in grid.rows)
+
+
+def spots(item: LabObject) -> tuple[PlaceRef, ...]:
+    """All named spots in the order of the profile."""
+    return tuple(PlaceRef(item.name, "spot", spot.name) for spot in item.spots)
+
+
+def has_place(item: LabObject, place: PlaceRef) -> bool:
+    """Whether the object has this place; every object with the role `surface` or `place_target` has its surface."""
+    if place.kind == "slot":
+        return item.slots is not None and _cell(item.slots, place.key) is not None
+    if place.kind == "spot":
+        return any(spot.name == place.key for spot in item.spots)
+    return "surface" in item.roles or "place_target" in item.roles
+
+
+def nearest_keys(item: LabObject, kind: str, key: str) -> tuple[str, ...]:
+    """Names of slots or spots that a wrong key may have meant, best first."""
+    known = slots(item) if kind == "slot" else spots(item)
+    return did_you_mean(key, [place.key for place in known])
+
+
+def T_object_place(item: LabObject, place: PlaceRef) -> Pose | None:
+    """The place in its object's frame: a slot's mouth, or where a bottom stands on a spot.
+
+    None for a whole surface, which is no single pose, and for a place that the object does not have.
+    """
+    if place.kind == "slot" and item.slots is not None:
+        return _mouth(item, item.slots, place.key)
+    if place.kind == "spot":
+        return next((spot.T_object_spot for spot in item.spots if spot.name == place.key), None)
+    return None
+
+
+def T_object_standing(item: LabObject, place: PlaceRef) -> Pose | None:
+    """Where the bottom centre of what stands in the place is, in the frame of the place's object.
+
+    In a slot that is the floor of the slot, `depth_m` below its mouth on its axis.
+    """
+    T_place = T_object_place(item, place)
+    if T_place is None or place.kind != "slot" or item.slots is None:
+        return T_place
+    return T_place @ Pose((0.0, 0.0, -item.slots.depth_m))
+
+
+def initial_place(item: LabObject) -> PlaceRef | None:
+    """The place in which the object's prior puts it, or None."""
+    prior = item.prior
+    if prior is None or not prior.in_object:
+        return None
+    return PlaceRef(prior.in_object, "slot" if prior.in_kind == "slot" else "spot", prior.in_key)
+
+
+def initial_occupant(profile: Profile, place: PlaceRef) -> str | None:
+    """The name of the object whose prior puts it in this place, or None."""
+    return next((item.name for item in profile.objects if initial_place(item) == place), None)
+
+
+def accepts(item: LabObject, place: PlaceRef, roles: tuple[str, ...]) -> bool:
+    """Whether a place takes an object of these roles: a slot asks for one of its `accepts`, other places for nothing."""
+    if place.kind != "slot" or item.slots is None:
+        return True
+    return any(role in item.slots.accepts for role in roles)
+
+
+def _slot(item: LabObject, key: str) -> PlaceRef:
+    return PlaceRef(item.name, "slot", key)
+
+
+def _cell(grid: SlotGrid, key: str) -> tuple[int, int] | None:
+    """Row and column from 0 of a key such as `A1`."""
+    for index, name in enumerate(grid.rows):
+        number = key.removeprefix(name)
+        if key.startswith(name) and number.isascii() and number.isdigit() and number[0] != "0":
+            if int(number) <= grid.columns:
+                return index, int(number) - 1
+    return None
+
+
+def _mouth(item: LabObject, grid: SlotGrid, key: str) -> Pose | None:
+    cell = _cell(grid, key)
+    if cell is None:
+        return None
+    i, j = cell
+    corner: Vec3 = (-item.size_m[0] / 2, -item.size_m[1] / 2, 0.0)
+    x, y, z = grid.origin_m
+    return Pose((corner[0] + x + j * grid.pitch_m[0], corner[1] + y + i * grid.pitch_m[1], z))
