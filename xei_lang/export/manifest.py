@@ -1,0 +1,90 @@
+"""`manifest.json`: what a bundle was made from, what is in it, and what keeps it off a real robot."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, version
+
+from xei_lang.ir.forms.canonical import Json
+from xei_lang.profiles.model import Profile
+
+FORMAT = "xei-bundle"
+VERSION = 1
+
+TOOLS = ("numpy", "networkx", "ompl", "pin", "rosbags", "scipy", "toppra")
+
+
+@dataclass(frozen=True, slots=True)
+class Blocker:
+    """Something of a profile that simulation accepts and a deployment does not."""
+
+    representation: str
+    item: str
+    status: str
+
+
+@dataclass(frozen=True, slots=True)
+class Manifest:
+    """All of a manifest but the hashes of the bundle's own files.
+
+    `inputs` maps the source, each file of the profile and the robot's description, by relative paths, to the
+    SHA-256 of their bytes.
+    """
+
+    protocol: str
+    profile: str
+    xei_version: str
+    inputs: Mapping[str, str]
+    seed: int
+    tools: Mapping[str, str]
+    blockers: tuple[Blocker, ...]
+
+    def to_json(self, files: Mapping[str, str]) -> dict[str, Json]:
+        """The manifest with the SHA-256 of each file of the bundle; nothing here depends on clock or machine."""
+        return {
+            "format": FORMAT,
+            "version": VERSION,
+            "xei_version": self.xei_version,
+            "protocol": self.protocol,
+            "profile": self.profile,
+            "seed": self.seed,
+            "tools": dict(sorted(self.tools.items())),
+            "inputs": dict(sorted(self.inputs.items())),
+            "blockers": [
+                {"representation": item.representation, "item": item.item, "status": item.status}
+                for item in self.blockers
+            ],
+            "files": dict(sorted(files.items())),
+        }
+
+
+def deployment_blockers(profile: Profile) -> tuple[Blocker, ...]:
+    """Placeholders of the calibration, frames among them, and assets stated to be missing; each once."""
+    calibration = profile.calibration
+    found = [
+        *(("calibration_profile", name, "placeholder") for name, _ in calibration.placeholders),
+        *(
+            ("calibration_profile", f"frames.{frame.name}", "placeholder")
+            for frame in calibration.frames
+            if frame.status == "placeholder"
+        ),
+        *(
+            ("usage_profile", f"objects.{item.name}.assets.{asset}", "missing")
+            for item in profile.objects
+            for asset, path in item.assets
+            if path is None
+        ),
+    ]
+    return tuple(Blocker(*entry) for entry in dict.fromkeys(found))
+
+
+def tool_versions() -> dict[str, str]:
+    """The installed versions of the libraries that shape a bundle's content."""
+    versions: dict[str, str] = {}
+    for tool in TOOLS:
+        try:
+            versions[tool] = version(tool)
+        except PackageNotFoundError:
+            versions[tool] = "missing"
+    return versions
