@@ -1,5 +1,7 @@
 """The part of the builder that makes values, types and the updates of a skill bank."""
 
+# ruff: noqa: D102 -- grammar/xei.lark says what each rule is
+
 from __future__ import annotations
 
 import dataclasses

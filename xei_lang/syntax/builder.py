@@ -3,6 +3,8 @@
 Children are tokens, nodes, and None for an option that was not taken; see grammar/xei.lark for their order.
 """
 
+# ruff: noqa: D102 -- grammar/xei.lark says what each rule is
+
 from __future__ import annotations
 
 from typing import Any

@@ -16,7 +16,7 @@ from xei_lang.syntax.tables import END, Tables
 Reduction = Callable[[list[Any]], Any]
 
 
-class SyntaxFault(Exception):
+class WrongTokenError(Exception):
     """The first token that cannot follow."""
 
     def __init__(self, token: Token) -> None:
@@ -34,7 +34,7 @@ class Driver:
     def parse(self, text: str, start: str, builder: Any, comments: list[Token]) -> Any:
         """The value that `builder` makes of `text`; its method `on_<rule>` gets a rule's children as a list.
 
-        Comments are appended to `comments` as they are met. Raises SyntaxFault at the first wrong token.
+        Comments are appended to `comments` as they are met. Raises WrongTokenError at the first wrong token.
         """
         tables = self.tables
         rules, actions, gotos = tables.rules, tables.actions, tables.gotos
@@ -55,7 +55,7 @@ class Driver:
             while True:
                 action = actions[states[-1]].get(kind)
                 if action is None:
-                    raise SyntaxFault(token._replace(kind=kind))
+                    raise WrongTokenError(token._replace(kind=kind))
                 if action >= 0:
                     states.append(action)
                     values.append(token)

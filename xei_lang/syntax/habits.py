@@ -43,30 +43,14 @@ def find_habit(before: list[Token], token: Token, text: str) -> Habit | None:
             return _instead(token.text * (1 + doubled), right, token.start, f"write `{right}`")
     if token.kind == STRAY:
         return _stray(token)
-    return _after_word(before, token) if before else None
+    return (_around_name(before, token) or _around_keyword(before, token)) if before else None
 
 
-def _after_word(before: list[Token], token: Token) -> Habit | None:
+def _around_name(before: list[Token], token: Token) -> Habit | None:
     previous = before[-1]
     if token.text == ":" and previous.kind == "NAME" and len(before) > 1 and before[-2].text in "(,":
         message = f"the argument `{previous.text}` is given with `:`"
         return Habit(message, "expected `=`", token.start, token.end, (f"write `{previous.text}=...`",), "=")
-    if token.text == "{" and len(before) > 1 and before[-2].text == "repeat":
-        return Habit("`repeat` lacks its `times`", "expected `times`", token.start, token.end, (), "times {")
-    if previous.text == "elif":
-        return Habit(
-            "`elif` is no word here", "expected `else if`", previous.start, previous.end, (), "else if"
-        )
-    if previous.text == "start" and len(before) > 2 and before[-2].text == ":":
-        label = before[-3]
-        return Habit(
-            "the label of a `start` stands behind that word",
-            "expected a label after `start`",
-            label.start,
-            previous.end,
-            (f"write `start {label.text}: {token.text}`",),
-            f"start {label.text}:",
-        )
     if token.text == "=" and previous.kind == "NAME":
         return Habit(
             f"`{previous.text}` is given a value without `let`",
@@ -87,6 +71,27 @@ def _after_word(before: list[Token], token: Token) -> Habit | None:
     return None
 
 
+def _around_keyword(before: list[Token], token: Token) -> Habit | None:
+    previous = before[-1]
+    if token.text == "{" and len(before) > 1 and before[-2].text == "repeat":
+        return Habit("`repeat` lacks its `times`", "expected `times`", token.start, token.end, (), "times {")
+    if previous.text == "elif":
+        return Habit(
+            "`elif` is no word here", "expected `else if`", previous.start, previous.end, (), "else if"
+        )
+    if previous.text == "start" and len(before) > 2 and before[-2].text == ":":
+        label = before[-3]
+        return Habit(
+            "the label of a `start` stands behind that word",
+            "expected a label after `start`",
+            label.start,
+            previous.end,
+            (f"write `start {label.text}: {token.text}`",),
+            f"start {label.text}:",
+        )
+    return None
+
+
 def _unit(before: list[Token], token: Token, text: str) -> Habit | None:
     """`2 ul`, `10 minutes`, `5 µL`: a number, then on the same line a word that is nearly a unit.
 
@@ -99,17 +104,18 @@ def _unit(before: list[Token], token: Token, text: str) -> Habit | None:
         if better is not None and unit.kind in ("NAME", STRAY):
             return _unit_habit(f"{number[0].text} {better}", unit.text, number[0].start, unit)
     if token.kind == STRAY and token.text[0].isdigit():
-        digits = token.text.rstrip("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZµμ_")
-        better = suggest_unit(token.text[len(digits) :])
+        written = token.text.lstrip("0123456789.")
+        digits = token.text.removesuffix(written)
+        better = suggest_unit(written)
         if better is not None:
-            return _unit_habit(f"{digits} {better}", token.text[len(digits) :], token.start, token)
+            return _unit_habit(f"{digits} {better}", written, token.start, token)
     return None
 
 
 def _unit_habit(mended: str, written: str, start: int, unit: Token) -> Habit:
     return Habit(
         f"`{written}` is not a unit",
-        f"expected `{mended.split()[-1]}`",
+        f"expected `{mended.rpartition(' ')[2]}`",
         start,
         unit.end,
         (f"write `{mended}`",),

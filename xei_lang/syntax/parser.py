@@ -7,7 +7,7 @@ from typing import Any
 from xei_lang.diagnostics import Diagnostic, Diagnostics, Source, Span
 from xei_lang.syntax import ast
 from xei_lang.syntax.builder import Builder
-from xei_lang.syntax.driver import Driver, SyntaxFault
+from xei_lang.syntax.driver import Driver, WrongTokenError
 from xei_lang.syntax.lexer import Token
 from xei_lang.syntax.nesting import MAX_NESTING, too_deep
 from xei_lang.syntax.tables import load_tables
@@ -47,7 +47,7 @@ class Parser:
         builder = Builder(source, comments)
         try:
             node = self._driver.parse(source.text, start, builder, comments)
-        except SyntaxFault as fault:
+        except WrongTokenError as fault:
             from xei_lang.syntax.faults import explain
 
             return None, (*builder.diagnostics, explain(source, start, fault.token, self._driver))

@@ -17,15 +17,8 @@ def read_source(path: Path, shown: str) -> tuple[Source | None, Diagnostics]:
     try:
         with path.open("rb") as file:
             data = file.read(MAX_BYTES + 1)
-    except IsADirectoryError:
-        return None, (_unreadable(shown, "is a folder, not a file", "name a .xei file inside it"),)
-    except FileNotFoundError:
-        return None, (_unreadable(shown, "does not exist", ""),)
-    except PermissionError:
-        return None, (_unreadable(shown, "may not be read", "check the file's permissions"),)
     except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        return None, (_unreadable(shown, f"cannot be read: {reason}", ""),)
+        return None, (_unreadable(shown, error),)
     if len(data) > MAX_BYTES:
         message = f"`{shown}` is larger than {MAX_BYTES // 1024**2} MiB"
         return None, (Diagnostic("XEI0107", message),)
@@ -36,8 +29,17 @@ def read_source(path: Path, shown: str) -> tuple[Source | None, Diagnostics]:
     return Source(shown, text.removeprefix("\ufeff")), ()
 
 
-def _unreadable(shown: str, reason: str, advice: str) -> Diagnostic:
-    return Diagnostic("XEI0101", f"`{shown}` {reason}", help=(advice,) if advice else ())
+def _unreadable(shown: str, error: OSError | ValueError) -> Diagnostic:
+    match error:
+        case IsADirectoryError():
+            reason, advice = "is a folder, not a file", ("name a .xei file inside it",)
+        case FileNotFoundError():
+            reason, advice = "does not exist", ()
+        case PermissionError():
+            reason, advice = "may not be read", ("check the file's permissions",)
+        case _:
+            reason, advice = f"cannot be read: {getattr(error, 'strerror', None) or error}", ()
+    return Diagnostic("XEI0101", f"`{shown}` {reason}", help=advice)
 
 
 def _not_utf8(shown: str, data: bytes, start: int) -> Diagnostic:
