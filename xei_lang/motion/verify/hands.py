@@ -1,0 +1,112 @@
+"""What the plan says is held and set down, against what the history of attach and detach makes of it."""
+
+from __future__ import annotations
+
+import math
+
+from xei_lang.ir.geometry import Pose
+from xei_lang.ir.goals import Attach, Detach, MotionGoal
+from xei_lang.ir.timed import TimedGoal
+from xei_lang.motion.verify.context import Context, pose_error
+from xei_lang.motion.verify.timeline import Moment
+
+
+def check_hands(context: Context) -> None:
+    """Each goal lists every held object that its joints carry and nothing that is not held, at the pose in the hand that
+    attaching made; a detach lets go of what was held, at the place that was asked for."""
+    for goal in context.plan.goals:
+        planned = context.planned(goal)
+        if planned is None:
+            continue
+        _check_listed(context, goal)
+        _check_carried(context, goal)
+        if isinstance(planned.action, Attach):
+            _check_attach(context, goal, planned.action)
+        elif isinstance(planned.action, Detach):
+            _check_detach(context, goal, planned, planned.action)
+
+
+def _check_listed(context: Context, goal: TimedGoal) -> None:
+    start, end = context.timeline.starts[goal.id], context.timeline.ends[goal.id]
+    for item in goal.attached:
+        moment = next((m for m in (start, end) if any(h.object == item.object for h in m.scene.held)), None)
+        if moment is None:
+            text = f"the plan says that `{item.object}` is held, but nothing has taken it"
+            context.found("attachment", goal, goal.start_s, item.object, text)
+        elif item.link not in context.robot.links:
+            context.found(
+                "attachment", goal, goal.start_s, item.object, f"`{item.link}` is no link of the robot"
+            )
+        else:
+            T_base_object = context.robot.pose(moment.q, item.link) @ item.T_link_object
+            _check_same_pose(context, goal, moment, item.object, T_base_object)
+
+
+def _check_same_pose(
+    context: Context, goal: TimedGoal, moment: Moment, name: str, T_base_object: Pose
+) -> None:
+    held = next(item for item in moment.scene.held if item.object == name)
+    actual = context.robot.pose(moment.q, held.link) @ held.T_link_object
+    distance, angle = pose_error(T_base_object, actual)
+    options = context.options
+    if distance > options.held_position_m or angle > options.held_rotation_rad:
+        text = f"`{name}` sits elsewhere in the hand than where it was taken"
+        context.found(
+            "attachment", goal, goal.start_s, name, text, distance, options.held_position_m, "m"
+        )
+
+
+def _check_carried(context: Context, goal: TimedGoal) -> None:
+    listed = {item.object for item in goal.attached}
+    moved = {context.robot.column[joint] for joint in goal.joints if joint in context.robot.column}
+    for held in context.timeline.starts[goal.id].scene.held:
+        carried = moved.intersection(context.robot.columns(held.link))
+        if carried and held.object not in listed:
+            text = f"`{held.object}` is in the hand that moves, but the plan does not say so"
+            context.found("attachment", goal, goal.start_s, held.object, text)
+
+
+def _check_attach(context: Context, goal: TimedGoal, action: Attach) -> None:
+    if any(item.object == action.object for item in context.timeline.starts[goal.id].scene.held):
+        context.found("attachment", goal, goal.start_s, action.object, f"`{action.object}` is already held")
+    if not any(item.object == action.object for item in context.timeline.ends[goal.id].scene.held):
+        context.found(
+            "attachment", goal, goal.start_s, action.object, f"the world has no object `{action.object}`"
+        )
+
+
+def _check_detach(context: Context, goal: TimedGoal, planned: MotionGoal, action: Detach) -> None:
+    start, end = context.timeline.starts[goal.id], context.timeline.ends[goal.id]
+    held = next((item for item in start.scene.held if item.object == action.object), None)
+    if held is None or held.side != action.arm:
+        text = f"the {action.arm} hand lets go of `{action.object}`, which it does not hold"
+        context.found("attachment", goal, goal.start_s, action.object, text)
+        return
+    symmetric = any(family.id == held.family and family.symmetric for family in context.graph.families)
+    _check_left(context, goal, action.object, action.T_base_object, end, symmetric, "where it was asked for")
+    stated = [item for item in goal.placed if item.object == action.object]
+    if not stated:
+        text = f"the plan does not say where `{action.object}` is left"
+        context.found("placement", goal, goal.end_s, action.object, text)
+    for item in stated:
+        _check_left(context, goal, action.object, item.T_base_object, end, False, "where the plan says")
+
+
+def _check_left(
+    context: Context, goal: TimedGoal, name: str, wanted: Pose, end: Moment, symmetric: bool, where: str
+) -> None:
+    options = context.options
+    actual = end.scene.objects[name]
+    distance, angle = pose_error(wanted, actual)
+    if symmetric:
+        wanted_z, actual_z = wanted.axes()[2], actual.axes()[2]
+        angle = 2.0 * math.asin(min(1.0, 0.5 * math.dist(wanted_z, actual_z)))
+    context.margin("placement", distance / options.placed_position_m, name, goal.id, goal.end_s)
+    if distance > options.placed_position_m:
+        text = f"`{name}` is left {distance * 1e3:.3g} mm from {where}"
+        limit = options.placed_position_m
+        context.found("placement", goal, goal.end_s, name, text, distance, limit, "m")
+    elif angle > options.placed_rotation_rad:
+        text = f"`{name}` is left turned by {math.degrees(angle):.3g} deg from {where}"
+        limit = options.placed_rotation_rad
+        context.found("placement", goal, goal.end_s, name, text, angle, limit, "rad")

@@ -1,0 +1,219 @@
+"""The plan told again from its knots: phases in which the same goals run, with every joint, held object and scene.
+
+Joints that no running goal moves hold their last position; mimic joints follow. Objects stand where the world has them,
+move with the hand between attach and detach, and stay where the hand was when it let go.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from xei_lang.ir.geometry import Pose
+from xei_lang.ir.goals import Attach, Detach, MotionGoal, MotionGoalGraph, NavToPose
+from xei_lang.ir.skill_plan import Side
+from xei_lang.ir.timed import TimedGoal, TimedPlan
+from xei_lang.ir.world import World
+from xei_lang.motion.verify.evaluate import Array, Motion, grid
+from xei_lang.motion.verify.options import RobotDescription
+from xei_lang.motion.verify.robot import Robot
+
+_MERGE_S = 1e-6
+
+
+@dataclass(frozen=True, slots=True)
+class Held:
+    """An object in a hand: the link that carries it, where it sits there, and the grasp family that it was taken by."""
+
+    object: str
+    link: str
+    T_link_object: Pose
+    side: Side
+    family: str
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """How things stand at one time: the base's epoch, what is held, and where all objects stand in the base frame."""
+
+    epoch: int
+    held: tuple[Held, ...]
+    objects: Mapping[str, Pose]
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """A goal's start or end as it comes about: the configuration (joints,) and the scene then."""
+
+    time_s: float
+    q: Array
+    scene: Scene
+
+
+@dataclass(frozen=True, slots=True)
+class Phase:
+    """A stretch in which the same goals run: 1 kHz times and (times, joints) positions, velocities, accelerations.
+
+    `running` are all goals that run, `moving` those with a trajectory. A still phase has one row.
+    """
+
+    times: Array
+    q: Array
+    v: Array
+    a: Array
+    running: tuple[TimedGoal, ...]
+    moving: tuple[TimedGoal, ...]
+    scene: Scene
+    new_scene: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Timeline:
+    """All phases, and for every goal how things stood when it started and when it had ended (attach: once attached)."""
+
+    phases: tuple[Phase, ...]
+    starts: Mapping[str, Moment]
+    ends: Mapping[str, Moment]
+    motions: Mapping[str, Motion]
+
+
+def build_timeline(
+    plan: TimedPlan, graph: MotionGoalGraph, world: World, robot: Robot, about: RobotDescription, rate_hz: float
+) -> Timeline:
+    """Walk through the plan's events in time order. The plan must be structurally sound."""
+    return _Walk(plan, graph, world, robot, about, rate_hz).run()
+
+
+class _Walk:
+    def __init__(
+        self,
+        plan: TimedPlan,
+        graph: MotionGoalGraph,
+        world: World,
+        robot: Robot,
+        about: RobotDescription,
+        rate_hz: float,
+    ) -> None:
+        self.plan, self.robot, self.rate_hz = plan, robot, rate_hz
+        self.actions: dict[str, MotionGoal] = {goal.id: goal for goal in graph.goals}
+        following = [goal.epoch for goal in graph.goals[1:]]
+        last = graph.goals[-1].epoch + 1 if graph.goals else 1
+        self.next_epoch = dict(zip((g.id for g in graph.goals), [*following, last], strict=False))
+        self.tools = dict(about.tool_links)
+        self.q = np.zeros(robot.size)
+        for joint, value in plan.start:
+            if joint in robot.column:
+                self.q[robot.column[joint]] = value
+        robot.follow(self.q)
+        self.epoch = graph.goals[0].epoch if graph.goals else 0
+        bases = {epoch.index: epoch.T_world_base for epoch in graph.epochs}
+        self.T_world_base = bases.get(self.epoch, world.robot.T_world_base)
+        self.T_world = {item.name: world.T_world_object(item.name) for item in world.objects}
+        self.held: dict[str, Held] = {}
+        self.links = _stated_links(plan)
+        self.motions = {goal.id: Motion.of(goal.knots) for goal in plan.goals if goal.knots is not None}
+        self.starts: dict[str, Moment] = {}
+        self.ends: dict[str, Moment] = {}
+        self.phases: list[Phase] = []
+        self.scene = self._scene()
+        self.new_scene = True
+
+    def run(self) -> Timeline:
+        goals = self.plan.goals
+        times = _merged([0.0, *(goal.start_s for goal in goals), *(goal.end_s for goal in goals)])
+        for time, after in zip(times, [*times[1:], None], strict=True):
+            self._events(time)
+            running = [g for g in goals if g.start_s <= time + _MERGE_S and g.end_s > time + _MERGE_S]
+            self._phase(time, after, tuple(running))
+        return Timeline(tuple(self.phases), self.starts, self.ends, self.motions)
+
+    def _events(self, time: float) -> None:
+        ending = [g for g in self.plan.goals if abs(g.end_s - time) <= _MERGE_S]
+        for goal in (g for g in ending if g.end_s - g.start_s > _MERGE_S):
+            self._end(goal, time)
+        for goal in (g for g in self.plan.goals if abs(g.start_s - time) <= _MERGE_S):
+            self.starts[goal.id] = Moment(time, self.q.copy(), self.scene)
+            if goal.end_s - goal.start_s <= _MERGE_S:
+                self._end(goal, time)
+
+    def _end(self, goal: TimedGoal, time: float) -> None:
+        if goal.id in self.motions:
+            _, (position, _) = self.motions[goal.id].ends()
+            for joint, value in zip(goal.joints, position, strict=True):
+                if joint in self.robot.column:
+                    self.q[self.robot.column[joint]] = value
+            self.robot.follow(self.q)
+        planned = self.actions.get(goal.id)
+        if planned is not None:
+            self._act(planned)
+        self.ends[goal.id] = Moment(time, self.q.copy(), self.scene)
+
+    def _act(self, goal: MotionGoal) -> None:
+        action = goal.action
+        if isinstance(action, NavToPose):
+            self._let_follow()
+            self.epoch = self.next_epoch[goal.id]
+            self.T_world_base = action.T_world_base
+            self._let_follow()
+        elif isinstance(action, Attach) and action.object in self.T_world:
+            link = self.links.get((goal.id, action.object), self.tools[action.arm])
+            T_base_object = self.T_world_base.inverse() @ self.T_world[action.object]
+            pose = self.robot.pose(self.q, link).inverse() @ T_base_object
+            self.held[action.object] = Held(action.object, link, pose, action.arm, action.family)
+        elif isinstance(action, Detach) and action.object in self.held:
+            self._let_follow()
+            del self.held[action.object]
+        else:
+            return
+        self.scene, self.new_scene = self._scene(), True
+
+    def _let_follow(self) -> None:
+        for held in self.held.values():
+            T_base_object = self.robot.pose(self.q, held.link) @ held.T_link_object
+            self.T_world[held.object] = self.T_world_base @ T_base_object
+
+    def _scene(self) -> Scene:
+        T_base_world = self.T_world_base.inverse()
+        objects = {name: T_base_world @ pose for name, pose in self.T_world.items()}
+        return Scene(self.epoch, tuple(self.held.values()), objects)
+
+    def _phase(self, time: float, after: float | None, running: tuple[TimedGoal, ...]) -> None:
+        moving = tuple(goal for goal in running if goal.id in self.motions)
+        if after is not None and moving:
+            times = grid(time, after, self.rate_hz)
+        elif self.new_scene or (self.phases and self.phases[-1].moving):
+            times = np.array([time])
+        else:
+            return
+        q = np.tile(self.q, (len(times), 1))
+        v, a = np.zeros_like(q), np.zeros_like(q)
+        for goal in moving:
+            known = [k for k, joint in enumerate(goal.joints) if joint in self.robot.column]
+            columns = [self.robot.column[goal.joints[k]] for k in known]
+            rows = self.motions[goal.id].at(times - goal.start_s)
+            q[:, columns], v[:, columns], a[:, columns] = (row[:, known] for row in rows)
+        self.robot.follow(q)
+        self.robot.follow_rates(v)
+        self.robot.follow_rates(a)
+        self.phases.append(Phase(times, q, v, a, running, moving, self.scene, self.new_scene))
+        self.new_scene = False
+
+
+def _merged(times: list[float]) -> list[float]:
+    merged: list[float] = []
+    for time in sorted(times):
+        if not merged or time - merged[-1] > _MERGE_S:
+            merged.append(time)
+    return merged
+
+
+def _stated_links(plan: TimedPlan) -> dict[tuple[str, str], str]:
+    """For every goal and object, the link that the plan next says carries the object."""
+    links: dict[tuple[str, str], str] = {}
+    following: dict[str, str] = {}
+    for goal in reversed(plan.goals):
+        following.update((item.object, item.link) for item in goal.attached)
+        links.update(((goal.id, name), link) for name, link in following.items())
+    return links
