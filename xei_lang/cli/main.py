@@ -1,0 +1,77 @@
+"""The program `xei`: finds the command, and turns what escapes into words and an exit code."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from typing import Any
+
+import click
+
+from xei_lang import __version__
+from xei_lang.cli.exit_codes import INTERRUPTED, OUR_BUG
+
+COMMANDS = {
+    "check": "Check protocols without moving anything.",
+    "compile": "Compile a protocol to a bundle of timed, verified motion.",
+    "run": "Execute a protocol and write its trace.",
+}
+
+
+class _Commands(click.Group):
+    """Loads a command's module only when it is asked for: `xei check` must not pay for motion planning."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        if cmd_name not in COMMANDS:
+            return None
+        module = importlib.import_module(f"xei_lang.cli.{cmd_name}_command")
+        command: click.Command = module.command
+        return command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))
+
+
+@click.command(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="xei")
+def main() -> None:
+    """Compile laboratory protocols to safe, timed robot motion.
+
+    Example: xei compile protocols/put_on_rack.xei
+    """
+
+
+def run(argv: list[str] | None = None) -> None:
+    """Entry point of the console script. Never shows a traceback for something that the user did."""
+    try:
+        main.main(args=argv, prog_name="xei", standalone_mode=False)
+    except click.exceptions.Exit as stop:
+        sys.exit(stop.exit_code)
+    except click.ClickException as mistake:
+        mistake.show()
+        sys.exit(mistake.exit_code)
+    except (click.Abort, KeyboardInterrupt):
+        click.echo("interrupted: nothing was left half-written", err=True)
+        sys.exit(INTERRUPTED)
+    except BrokenPipeError:
+        # The reader went away (`xei ... | head`): the rest is of no use to anyone.
+        sys.stderr.close()
+        sys.exit(0)
+    except Exception as bug:
+        _report_bug(bug)
+        sys.exit(OUR_BUG)
+
+
+def _report_bug(bug: Exception) -> None:
+    import traceback
+
+    click.echo("internal error: this is a bug in xei, not in your protocol", err=True)
+    click.echo("  please report it with the lines below and, if you may, the protocol that caused it", err=True)
+    frames: list[Any] = traceback.extract_tb(bug.__traceback__)[-6:]
+    for frame in frames:
+        click.echo(f"  {frame.name} ({frame.filename.rpartition('xei_lang/')[2]}:{frame.lineno})", err=True)
+    click.echo(f"  {type(bug).__name__}: {bug}", err=True)

@@ -1,0 +1,247 @@
+"""The passes in order. Each takes what the ones before it made, and hands on one representation.
+
+A failure can always be named by its handoff: a pass either adds its value or stops the compilation with diagnostics.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol
+
+from xei_lang.diagnostics import Diagnostics, Source, has_errors
+
+if TYPE_CHECKING:
+    from xei_lang.ir.skill_plan import SkillPlan
+    from xei_lang.ir.world import World
+    from xei_lang.profiles.model import Profile
+    from xei_lang.syntax.ast import Module
+    from xei_lang.ir.goals import MotionGoalGraph
+    from xei_lang.ir.timed import TimedPlan
+
+Progress = Callable[[str, int, int], None]
+"""Called by long passes with the pass's name, how much is done and how much there is."""
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """Everything that a compilation is a function of."""
+
+    source: Source
+    profile_folder: Path | None = None
+    cache: Path | None = None
+    bindings: tuple[tuple[str, str], ...] = ()
+    params: tuple[tuple[str, str], ...] = ()
+    open_bindings: bool = False
+    max_steps: int = 100_000
+    seed: int = 0
+    rate_hz: float = 100.0
+    progress: Progress | None = field(default=None, compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Handoffs:
+    """The representations made so far; each pass fills in one."""
+
+    module: Module | None = None
+    profile: Profile | None = None
+    plan: SkillPlan | None = None
+    world: World | None = None
+    graph: MotionGoalGraph | None = None
+    timed: TimedPlan | None = None
+
+
+class Pass(Protocol):
+    """One step of the compilation. `name` is what `--print-after` takes; `adds` is the handoff that it fills in."""
+
+    @property
+    def name(self) -> str:
+        """The name of the pass."""
+        ...
+
+    @property
+    def adds(self) -> str:
+        """The field of `Handoffs` that it fills in."""
+        ...
+
+    def __call__(self, request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
+        """The handoffs with this pass's own added, and what it has to say."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class PassResult:
+    """What a pass did, for those who watch: printing, timing, verification between passes."""
+
+    pass_name: str
+    made: Handoffs
+    diagnostics: Diagnostics
+    seconds: float
+    failed: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """The end of a compilation: what was made, everything that was said, and the pass that stopped it."""
+
+    made: Handoffs
+    diagnostics: Diagnostics
+    stopped_at: str | None
+
+
+def compile_request(
+    request: Request,
+    passes: tuple[Pass, ...],
+    watch: Callable[[PassResult], None] = lambda _result: None,
+) -> Outcome:
+    """Run the passes in order, until one has errors. `watch` sees each pass as it ends."""
+    made, said = Handoffs(), ()
+    for step in passes:
+        started = time.perf_counter()
+        made_next, diagnostics = step(request, made)
+        failed = has_errors(diagnostics) or getattr(made_next, step.adds) is None
+        said = (*said, *diagnostics)
+        watch(PassResult(step.name, made_next, diagnostics, time.perf_counter() - started, failed))
+        if failed:
+            return Outcome(made_next, said, step.name)
+        made = made_next
+    return Outcome(made, said, None)
+
+
+@dataclass(frozen=True, slots=True)
+class Parse:
+    """Text to `Module`."""
+
+    name: str = "parse"
+    adds: str = "module"
+
+    def __call__(self, request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
+        from xei_lang.syntax.parser import parse_module
+
+        module, said = parse_module(request.source)
+        return replace(made, module=module), said
+
+
+@dataclass(frozen=True, slots=True)
+class LoadProfile:
+    """The profile that the protocol names, from its compiled form where that is current."""
+
+    name: str = "profile"
+    adds: str = "profile"
+
+    def __call__(self, request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
+        from xei_lang.check import profile_name
+        from xei_lang.profiles.load import open_profile
+
+        assert made.module is not None
+        named = profile_name(made.module)
+        profile, said = open_profile(named, Path(request.source.file), request.profile_folder, request.cache)
+        return replace(made, profile=profile), said
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """`Module` to `SkillPlan`: names, types, roles, expansion."""
+
+    name: str = "check"
+    adds: str = "plan"
+
+    def __call__(self, request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
+        from xei_lang.check import CheckOptions, check_module
+
+        assert made.module is not None
+        assert made.profile is not None
+        options = CheckOptions(
+            bindings=dict(request.bindings),
+            params=dict(request.params),
+            open_bindings=request.open_bindings,
+            max_steps=request.max_steps,
+        )
+        plan, said = check_module(made.module, request.source, made.profile, options)
+        return replace(made, plan=plan), said
+
+
+@dataclass(frozen=True, slots=True)
+class Ground:
+    """Profile to `World`: where everything is, and who said so."""
+
+    name: str = "ground"
+    adds: str = "world"
+
+    def __call__(self, request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
+        from xei_lang.world.ground import ground
+
+        assert made.profile is not None
+        world, said = ground(made.profile)
+        return replace(made, world=world), said
+
+
+@dataclass(frozen=True, slots=True)
+class Lower:
+    """`SkillPlan` and `World` to `MotionGoalGraph`, by the skills' templates."""
+
+    name: str = "lower"
+    adds: str = "graph"
+
+    def __call__(self, request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
+        from xei_lang.lower import lower
+
+        assert made.plan is not None
+        assert made.profile is not None
+        assert made.world is not None
+        graph, said = lower(made.plan, made.profile, made.world)
+        return replace(made, graph=graph), said
+
+
+@dataclass(frozen=True, slots=True)
+class PlanMotion:
+    """`MotionGoalGraph` to `TimedPlan`."""
+
+    name: str = "motion"
+    adds: str = "timed"
+
+    def __call__(self, request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
+        from xei_lang.motion.plan import plan_motion
+        from xei_lang.profiles.load import robot_texts
+
+        assert made.profile is not None
+        assert made.graph is not None
+        assert made.world is not None
+        report = request.progress
+        timed, said = plan_motion(
+            made.graph,
+            made.world,
+            made.profile,
+            robot_texts(made.profile),
+            request.seed,
+            None if report is None else lambda done, total: report("motion", done, total),
+        )
+        return replace(made, timed=timed), said
+
+
+@dataclass(frozen=True, slots=True)
+class Verify:
+    """`TimedPlan` against everything that it must keep, by code that shares nothing with the planner."""
+
+    name: str = "verify"
+    adds: str = "timed"
+
+    def __call__(self, request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
+        from xei_lang.motion.verify import verify_timed
+        from xei_lang.profiles.load import robot_texts
+
+        assert made.profile is not None
+        assert made.timed is not None
+        assert made.graph is not None
+        assert made.world is not None
+        report = verify_timed(made.timed, made.graph, made.world, robot_texts(made.profile), made.profile)
+        return replace(made, timed=report.with_margins(made.timed)), report.diagnostics()
+
+
+FRONT: tuple[Pass, ...] = (Parse(), LoadProfile(), Check())
+"""What `xei check` runs."""
+
+ALL: tuple[Pass, ...] = (*FRONT, Ground(), Lower(), PlanMotion(), Verify())
+"""The whole way to timed, verified motion."""
