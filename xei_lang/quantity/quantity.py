@@ -50,7 +50,7 @@ class Quantity:
         try:
             return float(self.value)
         except OverflowError:
-            return math.copysign(math.inf, self.value)
+            return math.inf if self.value > 0 else -math.inf
 
     @property
     def magnitude(self) -> Fraction:

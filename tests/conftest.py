@@ -1,0 +1,47 @@
+"""What all tests share: golden files, and the flag that rewrites them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from tests.mdtest import run_markdown
+
+GOLDEN = Path(__file__).parent / "golden"
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--update-golden", action="store_true", help="write what golden tests and markdown tests produce")
+
+
+@pytest.fixture
+def update_golden(request: pytest.FixtureRequest) -> bool:
+    return bool(request.config.getoption("--update-golden"))
+
+
+@pytest.fixture
+def golden(update_golden: bool) -> Callable[[str, str], None]:
+    """`golden("name.txt", text)` compares with tests/golden/name.txt; a missing file fails."""
+
+    def compare(name: str, text: str) -> None:
+        path = GOLDEN / name
+        if update_golden:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8", newline="")
+        if not path.exists():
+            pytest.fail(f"{path} is missing; review the output and run pytest with --update-golden")
+        assert text == path.read_bytes().decode(), f"differs from {path}; --update-golden writes it anew"
+
+    return compare
+
+
+@pytest.fixture
+def markdown(update_golden: bool) -> Callable[[Path, Callable[[str], str]], None]:
+    """`markdown(path, produce)` runs every section of a markdown test; see tests/mdtest.py."""
+
+    def run(path: Path, produce: Callable[[str], str]) -> None:
+        run_markdown(path, produce, update=update_golden)
+
+    return run
