@@ -179,12 +179,16 @@ Action = (
 
 @dataclass(frozen=True, slots=True)
 class Parameter:
-    """An operation parameter of a goal and which source won: `skill`, `computed`, `usage_profile` or `call`."""
+    """An operation parameter of a goal and which source won: `skill`, `computed`, `usage_profile` or `call`.
+
+    `rule` says in words why it is so; `span` is where it is written, None for what was computed.
+    """
 
     name: str
     value: str
     source: Literal["skill", "computed", "usage_profile", "call"]
     rule: str = ""
+    span: Span | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,206 @@
+"""Goals of arms and grippers from the lines of a template."""
+
+from __future__ import annotations
+
+from typing import get_args
+
+from xei_lang.diagnostics import Label
+from xei_lang.ir.goals import Attach, Detach, Grip, JointTarget, MoveTo, Parameter, PathKind
+from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, Side
+from xei_lang.lower.draft import Builder, Draft, contacts
+from xei_lang.lower.hand import hand_of
+from xei_lang.lower.operations import Planned, operation_of_point
+from xei_lang.lower.operations.grasp import GRASP
+from xei_lang.lower.operations.place import PLACE
+from xei_lang.lower.parameters import Setting
+from xei_lang.lower.refusal import refuse
+from xei_lang.lower.seats import place_text
+from xei_lang.lower.task import Task, refuse_template
+from xei_lang.lower.walk import Held, Standing
+from xei_lang.profiles.model import Profile, TemplateStep
+
+_PATHS: tuple[PathKind, ...] = get_args(PathKind)
+
+
+def configuration(
+    profile: Profile, name: str, side: Side | None
+) -> tuple[JointTarget, tuple[str, ...]] | None:
+    """A named state of the robot description as a target, with the resources it takes; None where there is
+    none.
+
+    With a side, only that arm's joints; a state is the union of its groups' states, and each group is a
+    resource.
+    """
+    states = [state for state in profile.robot.states if state.name == name]
+    if side is not None:
+        states = [state for state in states if state.group == f"{side}_arm"]
+    if not states:
+        return None
+    joints = tuple(joint for state in states for joint in state.joints)
+    return JointTarget(name, joints), tuple(state.group for state in states)
+
+
+def _move_to(task: Task, line: TemplateStep) -> Draft:
+    path = line.field("path") or "free"
+    if path not in _PATHS:
+        refuse_template(line, f"`{path}` is not a path", f"expected one of {', '.join(_PATHS)}")
+    if line.field("keep") not in (None, "upright"):
+        refuse_template(line, f"`{line.field('keep')}` cannot be kept", "expected `upright`")
+    speed = _speed(task, line)
+    if line.field("configuration") is not None:
+        return _move_to_configuration(task, line, path, speed)
+    return _move_to_point(task, line, path, speed)
+
+
+def _speed(task: Task, line: TemplateStep) -> Setting | None:
+    name = line.field("speed")
+    if name is None:
+        return None
+    setting = task.setting(str(name), _maybe_arm(task, line), line)
+    if not 0.0 < setting.si("Fraction") <= 1.0:
+        refuse(
+            "XEI0702",
+            f"`{setting.name}` of {setting.text} is not a fraction of full speed",
+            setting.span or task.step.span,
+            "expected more than 0 % and at most 100 %",
+        )
+    return setting
+
+
+def _move_to_configuration(task: Task, line: TemplateStep, path: PathKind, speed: Setting | None) -> Draft:
+    name, side = str(line.field("configuration")), _maybe_arm(task, line)
+    found = configuration(task.profile, name, side)
+    if found is None:
+        refuse_template(
+            line,
+            f"the robot's description has no configuration `{name}`",
+            "expected a named state of the SRDF",
+            f"rule: {task.profile.bank.srdf}",
+        )
+    target, resources = found
+    fraction = speed.si("Fraction") if speed else 1.0
+    action = MoveTo(target, side, path, line.field("keep") == "upright", fraction)
+    return Draft("move_to", action, resources, task.scene, _told(speed), contacts(task.scene, task.scene))
+
+
+def _move_to_point(task: Task, line: TemplateStep, path: PathKind, speed: Setting | None) -> Draft:
+    at = str(line.field("at") or "")
+    argument, _, point = at.partition(".")
+    operation = operation_of_point(point)
+    if operation is None or line.field("tool") is None:
+        refuse_template(
+            line,
+            f"`{at}` is not a point of an operation",
+            "expected `at: <argument>.<point>` with `tool`, or `configuration`",
+        )
+    arm = task.arm(line.field("tool"), line)
+    planned = task.planned(operation, argument, arm, line)
+    aim = planned.aims[point]
+    before = task.scene
+    after = before.touch(arm, aim.support).reach(arm, aim.around)
+    uses = tuple(planned.settings[name].provenance() for name in aim.uses if name in planned.settings)
+    fraction = speed.si("Fraction") if speed else 1.0
+    action = MoveTo(aim.target, arm, path, line.field("keep") == "upright", fraction)
+    allowed = contacts(before.reach(arm, ""), after.reach(arm, ""), arm if path == "free" else None)
+    parameters = (*task.why_arm(line.field("tool")), *uses, *_told(speed))
+    return Draft("move_to", action, (f"{arm}_arm", "slide"), after, parameters, allowed)
+
+
+def _told(*settings: Setting | None) -> tuple[Parameter, ...]:
+    return tuple(setting.provenance() for setting in settings if setting is not None)
+
+
+def _maybe_arm(task: Task, line: TemplateStep) -> Side | None:
+    return task.arm(line.field("tool"), line) if line.field("tool") is not None else None
+
+
+def _open_gripper(task: Task, line: TemplateStep) -> Draft:
+    arm = task.arm(line.field("arm"), line)
+    held = task.scene.held.get(arm)
+    if held is not None and not held.touching:
+        _refuse_moving_jaws(task, arm, held, "would let it fall")
+    return _grip(task, line, arm)
+
+
+def _close_gripper(task: Task, line: TemplateStep) -> Draft:
+    arm = task.arm(line.field("arm"), line)
+    held = task.scene.held.get(arm)
+    if held is not None:
+        _refuse_moving_jaws(task, arm, held, "would squeeze it")
+    return _grip(task, line, arm)
+
+
+def _refuse_moving_jaws(task: Task, arm: Side, held: Held, what: str) -> None:
+    refuse(
+        "XEI0709",
+        f"the {arm} gripper moves while it holds `{held.object}`, which {what}",
+        task.step.span,
+        f"expected an empty {arm} hand",
+        (held.since,),
+        help=(f"set `{held.object}` down first",),
+    )
+
+
+def _grip(task: Task, line: TemplateStep, arm: Side) -> Draft:
+    width = task.setting(str(line.field("width")), arm, line)
+    opening_m, most_m = width.si("Length"), hand_of(task.profile).max_gap_m
+    if not 0.0 <= opening_m <= most_m + 1e-9:
+        refuse(
+            "XEI0702",
+            f"`{width.name}` of {width.text} is not a gap of this gripper",
+            width.span or task.step.span,
+            f"expected 0 mm .. {most_m * 1000:g} mm",
+        )
+    parameters = (*task.why_arm(line.field("arm")), width.provenance())
+    action = Grip(arm, min(opening_m, most_m))
+    allowed = contacts(task.scene, task.scene)
+    return Draft(line.kind, action, (f"{arm}_gripper",), task.scene, parameters, allowed)
+
+
+def _attach(task: Task, line: TemplateStep) -> Draft:
+    arm, argument = task.arm(line.field("arm"), line), str(line.field("object"))
+    subject = task.argument(argument)
+    planned = task.plans.get((GRASP.name, argument, arm))
+    if not isinstance(subject, ObjectRef) or planned is None or planned.family is None:
+        refuse_template(
+            line, f"`{argument}` was not grasped before `attach`", "expected `move_to` its grasp first"
+        )
+    standing = task.scene.standing[subject.name]
+    held = Held(
+        subject.name,
+        planned.family,
+        standing.T_world_object,
+        planned.settings["standoff"].si("Length"),
+        planned.settings["grasp_width"].si("Length"),
+        planned.floor_m,
+        standing.support,
+        Label(task.step.span, f"`{subject.name}` is picked up here"),
+    )
+    after = task.scene.attach(arm, held)
+    action = Attach(subject.name, arm, planned.family.id)
+    return Draft("attach", action, (f"{arm}_gripper",), after, (), contacts(task.scene, after))
+
+
+def _detach(task: Task, line: TemplateStep) -> Draft:
+    arm, argument = task.arm(line.field("arm"), line), str(line.field("at"))
+    ref, planned = task.argument(argument), _place_plan(task, line, argument, arm)
+    if not isinstance(ref, PlaceRef) or planned.T_world_placed is None:
+        refuse_template(line, f"`{argument}` is not a place", "expected an argument of type Place")
+    held = task.scene.held[arm]
+    place = "" if ref.kind == "surface" else place_text(ref)
+    since = Label(task.step.span, f"`{held.object}` is set down here")
+    standing = Standing(held.object, planned.T_world_placed, place, ref.object, since)
+    after = task.scene.detach(arm, standing)
+    action = Detach(held.object, arm, place_text(ref), task.scene.in_base(planned.T_world_placed))
+    return Draft("detach", action, (f"{arm}_gripper",), after, (), contacts(task.scene, after))
+
+
+def _place_plan(task: Task, line: TemplateStep, argument: str, arm: Side) -> Planned:
+    return task.planned(PLACE, argument, arm, line)
+
+
+MOVE_TO = Builder((), ("tool", "at", "configuration", "path", "keep", "speed"), _move_to)
+OPEN_GRIPPER = Builder(("arm", "width"), (), _open_gripper)
+CLOSE_GRIPPER = Builder(("arm", "width"), (), _close_gripper)
+ATTACH = Builder(("object", "arm"), (), _attach)
+DETACH = Builder(("object", "arm", "at"), (), _detach)

@@ -1,0 +1,93 @@
+"""Goals of slide, base, perception, outputs and people from the lines of a template."""
+
+from __future__ import annotations
+
+from xei_lang.ir.goals import Confirm, NavToPose, Perceive, SetDo, SlideMove, Wait
+from xei_lang.lower.draft import Builder, Draft, contacts
+from xei_lang.lower.refusal import refuse
+from xei_lang.lower.task import Task, refuse_template
+from xei_lang.profiles.model import TemplateStep
+
+_WHOLE_ROBOT = ("base", "left_arm", "right_arm", "slide")
+
+
+def _slide_move(task: Task, line: TemplateStep) -> Draft:
+    name = str(line.field("height"))
+    argument, _, attribute = name.partition(".")
+    if attribute == "slide":
+        action = SlideMove(task.station(argument, line).slide_m)
+        return _draft(task, line, action, ("slide",))
+    setting = task.setting(name, None, line)
+    height_m, joint = setting.si("Length"), task.profile.robot.joint("slide_joint")
+    if joint is not None and not joint.lower - 1e-9 <= height_m <= joint.upper + 1e-9:
+        refuse(
+            "XEI0702",
+            f"`{setting.name}` of {setting.text} is outside the slide's travel",
+            setting.span or task.step.span,
+            f"expected {joint.lower * 1000:g} mm .. {joint.upper * 1000:g} mm",
+        )
+    draft = _draft(task, line, SlideMove(height_m), ("slide",))
+    return Draft(
+        "slide_move", draft.action, draft.resources, draft.scene, (setting.provenance(),), draft.contacts
+    )
+
+
+def _nav_to_pose(task: Task, line: TemplateStep) -> Draft:
+    station, calibration = task.station(str(line.field("station")), line), task.profile.calibration
+    action = NavToPose(
+        station.name,
+        station.T_world_base,
+        calibration.docking_position_tolerance_m,
+        calibration.docking_rotation_tolerance_rad,
+    )
+    after = task.scene.drive(station.name, station.T_world_base)
+    return Draft("nav_to_pose", action, _WHOLE_ROBOT, after, (), contacts(task.scene, after))
+
+
+def _perceive(task: Task, line: TemplateStep) -> Draft:
+    name = str(line.field("frame"))
+    argument, _, attribute = name.partition(".")
+    frame = task.station(argument, line).ground_frame if attribute == "ground_frame" else name
+    after = task.scene.perceive()
+    return Draft("perceive", Perceive(frame), ("perception",), after, (), contacts(task.scene, after))
+
+
+def _set_do(task: Task, line: TemplateStep) -> Draft:
+    output, value = _literal_or_argument(task, line, "output"), _literal_or_argument(task, line, "value")
+    if not isinstance(output, str) or not isinstance(value, bool):
+        refuse_template(
+            line, "`set_do` needs an output's name and true or false", f"found `{output}` and `{value}`"
+        )
+    return _draft(task, line, SetDo(output, value), ("io",))
+
+
+def _wait(task: Task, line: TemplateStep) -> Draft:
+    setting = task.setting(str(line.field("for")), None, line)
+    duration_s = setting.si("Time")
+    allowed = contacts(task.scene, task.scene)
+    provenance = (setting.provenance(),)
+    return Draft("wait", Wait(duration_s), (), task.scene, provenance, allowed, duration_s, duration_s)
+
+
+def _confirm(task: Task, line: TemplateStep) -> Draft:
+    return _draft(task, line, Confirm(str(_literal_or_argument(task, line, "text"))), ("person",))
+
+
+def _literal_or_argument(task: Task, line: TemplateStep, field: str) -> object:
+    written = line.field(field)
+    value = task.argument(written) if isinstance(written, str) else None
+    return written if value is None else value
+
+
+def _draft(
+    task: Task, line: TemplateStep, action: SlideMove | SetDo | Confirm, resources: tuple[str, ...]
+) -> Draft:
+    return Draft(line.kind, action, resources, task.scene, (), contacts(task.scene, task.scene))
+
+
+SLIDE_MOVE = Builder(("height",), (), _slide_move)
+NAV_TO_POSE = Builder(("station",), (), _nav_to_pose)
+PERCEIVE = Builder(("frame",), (), _perceive)
+SET_DO = Builder(("output", "value"), (), _set_do)
+WAIT = Builder(("for",), (), _wait)
+CONFIRM = Builder(("text",), (), _confirm)

@@ -1,0 +1,118 @@
+"""Lowering: a SkillPlan becomes a MotionGoalGraph. The plan must have been checked against this profile."""
+
+from __future__ import annotations
+
+from xei_lang.diagnostics import Diagnostic, Diagnostics, has_errors
+from xei_lang.ir.goals import Confirm, MotionGoalGraph, Wait
+from xei_lang.ir.skill_plan import ObjectRef, Side, SkillPlan, Step
+from xei_lang.ir.world import World
+from xei_lang.lower.arms import Choice, choose, destinations
+from xei_lang.lower.assemble import Assembly
+from xei_lang.lower.draft import Draft, contacts
+from xei_lang.lower.hand import SIDES
+from xei_lang.lower.refusal import Refusal, refuse
+from xei_lang.lower.scene_origin import STEP_ID, scene_origin
+from xei_lang.lower.task import Task
+from xei_lang.lower.templates import expand
+from xei_lang.lower.walk import Scene
+from xei_lang.profiles.model import Profile, SceneOrigin, SkillSpec
+from xei_lang.quantity import Quantity
+
+
+def lower(plan: SkillPlan, profile: Profile, world: World) -> tuple[MotionGoalGraph | None, Diagnostics]:
+    """The goals of the plan in its partial order, after the scene origin motion; None where there are errors.
+
+    Each mistake is reported once: after a step that cannot be lowered, later steps about the same objects are
+    passed over. The same plan, profile and world give the same graph, byte for byte.
+    """
+    scene = Scene.of(world, profile)
+    assembly = Assembly(epochs=[scene.epoch])
+    problems: list[Diagnostic] = []
+    scene, forgotten = _start(assembly, scene, world, profile, problems), frozenset[str]()
+    for index, step in enumerate(plan.steps):
+        if forgotten.intersection(_objects(step)):
+            continue
+        try:
+            scene = _lower_step(assembly, plan, index, scene, profile)
+        except Refusal as refusal:
+            problems.append(refusal.diagnostic)
+            forgotten = forgotten.union(_movable(step, profile))
+            scene = scene.forget(_movable(step, profile))
+    return (None if has_errors(tuple(problems)) else assembly.graph()), tuple(problems)
+
+
+def _start(
+    assembly: Assembly, scene: Scene, world: World, profile: Profile, problems: list[Diagnostic]
+) -> Scene:
+    station = _station(profile, world.robot.station)
+    if station is None:
+        problems.append(
+            Diagnostic("XEI0715", f"the robot starts at `{world.robot.station}`, which is no station")
+        )
+        return scene
+    try:
+        drafts = scene_origin(scene, world, profile, station)
+    except Refusal as refusal:
+        problems.append(refusal.diagnostic)
+        return scene
+    assembly.add(STEP_ID, station.span, after=(), before=scene, drafts=drafts)
+    return scene
+
+
+def _station(profile: Profile, name: str) -> SceneOrigin | None:
+    return next((item for item in profile.calibration.stations if item.name == name), None)
+
+
+def _lower_step(assembly: Assembly, plan: SkillPlan, index: int, scene: Scene, profile: Profile) -> Scene:
+    step = plan.steps[index]
+    after = step.after or (STEP_ID,)
+    spec = profile.bank.skill(step.skill) if step.kind == "skill" else None
+    if spec is None:
+        drafts = (_statement(step, scene),)
+        assembly.add(step.step_id, step.span, after=after, before=scene, drafts=drafts)
+        return scene
+    task = _task(plan, index, spec, scene, profile)
+    drafts = expand(task)
+    assembly.families.extend(task.families)
+    longest_s = step.duration_s[1] or spec.duration_s[1]
+    assembly.add(step.step_id, step.span, after=after, before=scene, drafts=drafts, max_duration_s=longest_s)
+    return task.scene
+
+
+def _task(plan: SkillPlan, index: int, spec: SkillSpec, scene: Scene, profile: Profile) -> Task:
+    step = plan.steps[index]
+    name = next(iter(_movable(step, profile)), "")
+    ahead = destinations(plan, index, name, scene, profile) if name else ()
+    arms: dict[str, Choice] = {}
+    for argument in spec.args:
+        if argument.type == "Arm":
+            stated: Side | None = next((side for side in SIDES if step.arg(argument.name) == side), None)
+            arms[argument.name] = Choice(stated, "") if stated else choose(name, ahead, scene, profile)
+    return Task(profile, step, spec, scene, arms, name, ahead)
+
+
+def _statement(step: Step, scene: Scene) -> Draft:
+    """The goal of a statement of the language: `wait` and `confirm`; others are refused as not yet
+    compiled.
+    """
+    allowed = contacts(scene, scene)
+    if step.kind == "wait":
+        duration = step.arg("duration")
+        seconds = duration.si if isinstance(duration, Quantity) else step.duration_s[0]
+        return Draft("wait", Wait(seconds), (), scene, (), allowed, seconds, seconds)
+    if step.kind == "confirm":
+        return Draft("confirm", Confirm(str(step.arg("text") or "")), ("person",), scene, (), allowed)
+    what = f"the skill `{step.skill}`" if step.kind == "skill" else f"`{step.kind}`"
+    return refuse(
+        "XEI0105", f"{what} is not compiled to motion yet", step.span, "nothing here says how to move"
+    )
+
+
+def _objects(step: Step) -> tuple[str, ...]:
+    return tuple(item.value.name for item in step.args if isinstance(item.value, ObjectRef))
+
+
+def _movable(step: Step, profile: Profile) -> tuple[str, ...]:
+    """The movable objects that a step is about, in the order of its arguments."""
+    found = ((name, profile.object(name)) for name in _objects(step))
+    return tuple(name for name, known in found if known is not None and "movable" in known.roles)

@@ -1,0 +1,33 @@
+"""Operation-parameter planners. A new operation is one file with an `Operation`, and one entry in
+`OPERATIONS`.
+"""
+
+from __future__ import annotations
+
+from xei_lang.lower.operations.base import Aim, Operation, Planned, Work
+from xei_lang.lower.operations.grasp import GRASP
+from xei_lang.lower.operations.lift import LIFT
+from xei_lang.lower.operations.place import PLACE
+
+OPERATIONS: tuple[Operation, ...] = (GRASP, LIFT, PLACE)
+
+
+def operation_of_point(point: str) -> Operation | None:
+    """The operation that a point such as `pregrasp` belongs to, or None."""
+    return next((item for item in OPERATIONS if point in item.points), None)
+
+
+def operations_of_parameter(name: str) -> tuple[Operation, ...]:
+    """The operations that compute a parameter such as `open_width`."""
+    return tuple(item for item in OPERATIONS if name in item.parameters)
+
+
+__all__ = [
+    "OPERATIONS",
+    "Aim",
+    "Operation",
+    "Planned",
+    "Work",
+    "operation_of_point",
+    "operations_of_parameter",
+]

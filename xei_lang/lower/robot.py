@@ -1,0 +1,34 @@
+"""What lowering needs of the robot's body: where its shoulders are, seen from above."""
+
+from __future__ import annotations
+
+import math
+
+from xei_lang.ir.geometry import Pose
+from xei_lang.ir.skill_plan import Side
+from xei_lang.profiles.model import Profile
+
+
+def shoulder_xy(profile: Profile, side: Side) -> tuple[float, float]:
+    """The shoulder's centre in the base frame, from above (the slide is upright, so its height does not
+    matter).
+
+    It lies on the second joint's axis, where the first three axes meet; that joint's own origin is near
+    enough here.
+    """
+    pose, joint = Pose(), profile.robot.joint(f"openarm_{side}_joint2")
+    while joint is not None:
+        pose = joint.T_parent_joint @ pose
+        parent = joint.parent
+        joint = next((item for item in profile.robot.joints if item.child == parent), None)
+    return (pose.position_m[0], pose.position_m[1])
+
+
+def reach_direction(profile: Profile, side: Side, T_base_object: Pose) -> tuple[float, float]:
+    """The level unit vector from the shoulder to an object, in the base frame; straight ahead where they
+    coincide.
+    """
+    x, y = shoulder_xy(profile, side)
+    dx, dy = T_base_object.position_m[0] - x, T_base_object.position_m[1] - y
+    norm = math.hypot(dx, dy)
+    return (dx / norm, dy / norm) if norm > 1e-9 else (1.0, 0.0)

@@ -1,0 +1,69 @@
+"""Declarative templates: each line of a skill's template becomes one goal. A new skill is a few lines of
+the skill bank.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from xei_lang.diagnostics import did_you_mean
+from xei_lang.ir.goals import GoalKind
+from xei_lang.lower import build_arm, build_other
+from xei_lang.lower.draft import Builder, Draft
+from xei_lang.lower.task import Task, refuse_template
+from xei_lang.profiles.model import TemplateStep
+
+BUILDERS: Mapping[GoalKind, Builder] = MappingProxyType(
+    {
+        "move_to": build_arm.MOVE_TO,
+        "open_gripper": build_arm.OPEN_GRIPPER,
+        "close_gripper": build_arm.CLOSE_GRIPPER,
+        "attach": build_arm.ATTACH,
+        "detach": build_arm.DETACH,
+        "slide_move": build_other.SLIDE_MOVE,
+        "nav_to_pose": build_other.NAV_TO_POSE,
+        "perceive": build_other.PERCEIVE,
+        "set_do": build_other.SET_DO,
+        "wait": build_other.WAIT,
+        "confirm": build_other.CONFIRM,
+    }
+)
+
+
+def expand(task: Task) -> tuple[Draft, ...]:
+    """The drafts of a step's template, in order; `task.scene` is left as the step leaves it.
+
+    Raises Refusal: XEI0701 at the profile's line for a template that names what does not exist, else the
+    diagnostic of the operation that cannot be planned.
+    """
+    drafts: list[Draft] = []
+    for line in task.spec.template:
+        builder = _builder(line)
+        draft = builder.build(task, line)
+        task.scene = draft.scene
+        drafts.append(draft)
+    return tuple(drafts)
+
+
+def _builder(line: TemplateStep) -> Builder:
+    builder = BUILDERS.get(line.kind)
+    if builder is None:
+        refuse_template(
+            line, f"a template cannot use `{line.kind}` yet", "not a kind of goal that is lowered"
+        )
+    known = (*builder.required, *builder.optional)
+    written = tuple(name for name, _ in line.fields)
+    for name in written:
+        if name not in known:
+            nearest = did_you_mean(name, known)
+            hint = f"; did you mean `{nearest[0]}`" if nearest else ""
+            refuse_template(
+                line, f"`{line.kind}` has no field `{name}`", f"expected {', '.join(known)}{hint}"
+            )
+    for name in builder.required:
+        if name not in written:
+            refuse_template(
+                line, f"`{line.kind}` needs the field `{name}`", f"found {', '.join(written) or 'none'}"
+            )
+    return builder

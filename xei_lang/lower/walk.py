@@ -1,0 +1,151 @@
+"""The geometric state while lowering: where the base and every object stand and what each hand holds.
+
+A `Scene` is a value; each event (attach, detach, drive) gives the next one. Poses are kept in `world`, so
+that a drive only changes the base and what the base does not carry is seen from its new place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from xei_lang.diagnostics import Label, Span
+from xei_lang.ir.geometry import Pose
+from xei_lang.ir.goals import Epoch, Family
+from xei_lang.ir.skill_plan import Side
+from xei_lang.ir.world import World, WorldObject
+from xei_lang.profiles.model import Profile
+
+_REST_TOLERANCE_M = 0.01
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """An object that no hand holds: its pose, the place it stands in (or empty), what carries it, and since
+    when.
+    """
+
+    object: str
+    T_world_object: Pose
+    place: str
+    support: str
+    since: Label | None
+
+
+@dataclass(frozen=True, slots=True)
+class Held:
+    """An object in a hand: the family it was grasped with and where it stood then.
+
+    `sunk_m` is how deep it stood in its slot. `touching` names the support that it has not left yet, or
+    reaches at the end of a linear move; empty in the air.
+    """
+
+    object: str
+    family: Family
+    T_world_grasped: Pose
+    standoff_m: float
+    grasp_width_m: float
+    sunk_m: float
+    touching: str
+    since: Label
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """Where everything is at one point of the plan. `reached` names the object that an open hand stands
+    around.
+    """
+
+    epoch: Epoch
+    provisional: bool
+    standing: Mapping[str, Standing]
+    held: Mapping[Side, Held]
+    reached: Mapping[Side, str]
+
+    @staticmethod
+    def of(world: World, profile: Profile) -> Scene:
+        """The scene before anything moves, at the station where the robot stands."""
+        standing = {item.name: _standing(item, world, profile) for item in world.objects}
+        return Scene(Epoch(0, world.robot.station, world.robot.T_world_base), False, standing, {}, {})
+
+    def T_base_object(self, name: str) -> Pose:
+        """Pose of a standing object in the base frame of this epoch. Raises KeyError for one in a hand."""
+        return self.in_base(self.standing[name].T_world_object)
+
+    def in_base(self, T_world_x: Pose) -> Pose:
+        """A pose of `world` in the base frame of this epoch."""
+        return self.epoch.T_world_base.inverse() @ T_world_x
+
+    def holder(self, name: str) -> Side | None:
+        """The hand that holds the object, or None."""
+        return next((side for side, held in self.held.items() if held.object == name), None)
+
+    def carried_by(self, name: str) -> tuple[Standing, ...]:
+        """What stands in or on the object."""
+        return tuple(item for item in self.standing.values() if item.support == name)
+
+    def occupant(self, place: str) -> Standing | None:
+        """What stands in a place, or None."""
+        return next((item for item in self.standing.values() if item.place == place), None)
+
+    def attach(self, side: Side, held: Held) -> Scene:
+        """The hand takes the object away from where it stands."""
+        standing = {name: item for name, item in self.standing.items() if name != held.object}
+        return replace(self, standing=standing, held={**self.held, side: held}, reached={})
+
+    def detach(self, side: Side, standing: Standing) -> Scene:
+        """The hand leaves its object standing."""
+        held = {key: item for key, item in self.held.items() if key != side}
+        return replace(self, held=held, standing={**self.standing, standing.object: standing})
+
+    def touch(self, side: Side, support: str) -> Scene:
+        """What the hand holds now touches this support (empty: nothing)."""
+        if side not in self.held:
+            return self
+        return replace(self, held={**self.held, side: replace(self.held[side], touching=support)})
+
+    def reach(self, side: Side, name: str) -> Scene:
+        """The open hand now stands around this object (empty: around none)."""
+        others = {key: item for key, item in self.reached.items() if key != side}
+        return replace(self, reached={**others, side: name} if name else others)
+
+    def drive(self, station: str, T_world_base: Pose) -> Scene:
+        """The base stands elsewhere: a new epoch, not yet grounded; what the hands hold has come along."""
+        epoch = Epoch(self.epoch.index + 1, station, T_world_base)
+        return replace(self, epoch=epoch, provisional=False)
+
+    def perceive(self) -> Scene:
+        """From here on, goals of this epoch are provisional."""
+        return replace(self, provisional=True)
+
+    def forget(self, names: tuple[str, ...]) -> Scene:
+        """Drop objects whose whereabouts are not known any more, so that one mistake is reported once."""
+        standing = {name: item for name, item in self.standing.items() if name not in names}
+        held = {side: item for side, item in self.held.items() if item.object not in names}
+        return replace(self, standing=standing, held=held, reached={})
+
+
+def _standing(item: WorldObject, world: World, profile: Profile) -> Standing:
+    pose = world.T_world_object(item.name)
+    support = item.place.partition(".")[0] or _support(item.name, pose, world)
+    return Standing(item.name, pose, item.place, support, _prior_label(item.name, profile))
+
+
+def _prior_label(name: str, profile: Profile) -> Label | None:
+    known = profile.object(name)
+    if known is None:
+        return None
+    span: Span = known.prior.span if known.prior else known.span
+    return Label(span, f"`{name}` stands here from the start")
+
+
+def _support(name: str, T_world_object: Pose, world: World) -> str:
+    """The object whose top the bottom of this one rests on, or empty."""
+    for other in world.objects:
+        if other.name == name:
+            continue
+        x, y, z = world.T_world_object(other.name).inverse().apply(T_world_object.position_m)
+        inside = abs(x) <= other.size_m[0] / 2 and abs(y) <= other.size_m[1] / 2
+        if inside and abs(z - other.size_m[2]) <= _REST_TOLERANCE_M:
+            return other.name
+    return ""
