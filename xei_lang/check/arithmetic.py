@@ -1,0 +1,113 @@
+"""Exact arithmetic and comparisons on numbers, quantities and open intervals of them."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any
+
+from xei_lang.check.values import Interval, Numeric, Val, number
+from xei_lang.quantity import Quantity
+from xei_lang.quantity.dimension import NUMBER
+
+_BINARY: dict[str, Callable[[Any, Any], Any]] = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": lambda left, right: left / (Fraction(right) if isinstance(right, int) else right),
+}
+_ORDER: dict[str, Callable[[Any, Any], bool]] = {
+    "<": operator.lt,
+    "<=": operator.le,
+    ">": operator.gt,
+    ">=": operator.ge,
+    "==": operator.eq,
+    "!=": operator.ne,
+}
+
+
+def is_numeric(value: Val) -> bool:
+    """Whether arithmetic can be done with the value."""
+    return isinstance(value, (Quantity, int, Fraction, Interval)) and not isinstance(value, bool)
+
+
+def combine(op: str, left: Val, right: Val) -> Val:
+    """`left op right` for numeric values.
+
+    Raises DimensionError where the dimensions do not go together, ZeroDivisionError where the divisor is or may be
+    zero. Each occurrence of an open value counts as its own: `v - v` is an interval about zero.
+    """
+    if not isinstance(left, Interval) and not isinstance(right, Interval):
+        return _apply(op, _numeric(left), _numeric(right))
+    lows, highs = _as_interval(left), _as_interval(right)
+    if op == "/" and _has_zero(highs):
+        raise ZeroDivisionError
+    corners = [_apply(op, a, b) for a in (lows.lower, lows.upper) for b in (highs.lower, highs.upper)]
+    ordered = sorted(corners, key=lambda corner: _lifted(corner).value)
+    return Interval(ordered[0], ordered[-1], _apply(op, lows.nominal, highs.nominal))
+
+
+def negate(value: Val) -> Val:
+    """`-value`, for a numeric value."""
+    if isinstance(value, Interval):
+        return Interval(_negative(value.upper), _negative(value.lower), _negative(value.nominal))
+    return _negative(_numeric(value))
+
+
+def compare(op: str, left: Val, right: Val) -> bool | None:
+    """`left op right` for numeric values; None where open values leave it undecided. Raises DimensionError."""
+    if not isinstance(left, Interval) and not isinstance(right, Interval):
+        return _ordered(op, _numeric(left), _numeric(right))
+    first, second = _as_interval(left), _as_interval(right)
+    if op in ("==", "!="):
+        apart = _ordered("<", first.upper, second.lower) or _ordered(">", first.lower, second.upper)
+        return (op == "!=") if apart else None
+    answers = {_ordered(op, a, b) for a in (first.lower, first.upper) for b in (second.lower, second.upper)}
+    return answers.pop() if len(answers) == 1 else None
+
+
+def _apply(op: str, left: Numeric, right: Numeric) -> Numeric:
+    if isinstance(left, Quantity) or isinstance(right, Quantity):
+        if op in "+-":
+            left, right = _lifted(left), _lifted(right)
+        elif not isinstance(left, Quantity):
+            left = Fraction(left)
+    return number(_BINARY[op](left, right))
+
+
+def _ordered(op: str, left: Numeric, right: Numeric) -> bool:
+    """Raises DimensionError also for `==`: comparing a volume with a time is a mistake, not an answer."""
+    first, second = _lifted(left), _lifted(right)
+    _ = first <= second
+    return _ORDER[op](first, second)
+
+
+def _negative(value: Numeric) -> Numeric:
+    return number(-value)
+
+
+def _lifted(value: Numeric) -> Quantity:
+    return value if isinstance(value, Quantity) else Quantity(Fraction(value), NUMBER, "")
+
+
+def _as_interval(value: Val) -> Interval:
+    if isinstance(value, Interval):
+        return value
+    only = _numeric(value)
+    return Interval(only, only, only)
+
+
+def _has_zero(value: Interval) -> bool:
+    return _lifted(value.lower).value <= 0 <= _lifted(value.upper).value
+
+
+def _numeric(value: Val) -> Numeric:
+    if isinstance(value, (Quantity, int, Fraction)):
+        return value
+    raise TypeError(f"not a number: {value!r}")
+
+
+def exact(value: float) -> Numeric:
+    """A float as the decimal that it is written as."""
+    return number(Fraction(str(value)))

@@ -1,0 +1,259 @@
+"""A call against the skill bank: the skill, who performs it, and every argument's type, unit, range and roles."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from xei_lang.check import arithmetic
+from xei_lang.check.arguments import Signature, match_arguments
+from xei_lang.check.effects import Effect, effects_of, moves
+from xei_lang.check.evaluate import ANY_WORD, Evaluator
+from xei_lang.check.expectation import Expectation
+from xei_lang.check.registry import Registry
+from xei_lang.check.report import Reporter, listed, meant
+from xei_lang.check.scope import Scope
+from xei_lang.check.state import State
+from xei_lang.check.types import ANY_ARM, Types
+from xei_lang.check.values import (
+    POISON,
+    Interval,
+    ObjectValue,
+    PlaceValue,
+    Val,
+    Word,
+    show,
+    show_place,
+    to_plan,
+)
+from xei_lang.diagnostics import did_you_mean
+from xei_lang.ir.skill_plan import Argument, Value
+from xei_lang.profiles.model import ArgSpec, SkillSpec
+from xei_lang.quantity import DimensionError, Quantity, QuantityError, parse_quantity
+from xei_lang.syntax.ast import Arg, Call, Expression
+
+
+@dataclass(frozen=True, slots=True)
+class CheckedCall:
+    """A call that holds: its skill, its effects, and its arguments in the skill's order."""
+
+    skill: SkillSpec
+    effects: tuple[Effect, ...]
+    arguments: tuple[Argument, ...]
+
+    @property
+    def values(self) -> dict[str, Value]:
+        """The arguments' values by name."""
+        return {argument.name: argument.value for argument in self.arguments}
+
+
+@dataclass(frozen=True, slots=True)
+class _Prepared:
+    skill: SkillSpec
+    signature: Signature
+    expectations: tuple[tuple[ArgSpec, Expectation], ...]
+    effects: tuple[Effect, ...]
+
+
+class Calls:
+    """Checks calls of skills; the contracts are prepared once."""
+
+    def __init__(self, registry: Registry, evaluator: Evaluator, types: Types, reporter: Reporter) -> None:
+        self._registry = registry
+        self._evaluator = evaluator
+        self._types = types
+        self._reporter = reporter
+        self._prepared: dict[str, _Prepared] = {}
+
+    def check(self, call: Call, scope: Scope, state: State, procedures: tuple[str, ...]) -> CheckedCall | None:
+        """The call with its arguments resolved as they are at this point of the plan; None where it does not hold."""
+        skill = self._skill(call, procedures)
+        if skill is None:
+            self._look_at_arguments(call, scope)
+            return None
+        prepared = self._prepare(skill)
+        given = match_arguments(call, prepared.signature, self._reporter)
+        if given is None:
+            self._look_at_arguments(call, scope)
+            return None
+        values = {
+            spec.name: self._argument(given.get(spec.name), spec, expected, scope, state)
+            for spec, expected in prepared.expectations
+        }
+        if not self._slots_accept(prepared, given, values):
+            return None
+        found = tuple(_planned(spec, value, given) for spec, value in _present(prepared, values))
+        return CheckedCall(skill, prepared.effects, found)
+
+    def _skill(self, call: Call, procedures: tuple[str, ...]) -> SkillSpec | None:
+        name = call.callee.id
+        skill = self._registry.skills.get(name)
+        callable_skills = tuple(skill.name for skill in self._registry.skills.values() if skill.exposed)
+        if skill is None:
+            self._reporter.report(
+                "XEI0201",
+                f"there is no skill `{name}`",
+                call.callee.span,
+                "neither a skill of this robot nor a procedure of this file",
+                help=meant(did_you_mean(name, (*callable_skills, *procedures)))
+                or (f"this robot's skills are {listed(callable_skills, 12)}",),
+            )
+        elif not skill.exposed:
+            self._reporter.report(
+                "XEI0203",
+                f"skill `{name}` cannot be called from a protocol",
+                call.callee.span,
+                "only other skills use it",
+                notes=(self._reporter.rule(skill.span),),
+                help=(f"skills that can be called: {listed(callable_skills, 12)}",),
+            )
+        elif skill.owner not in self._registry.owners:
+            self._reporter.report(
+                "XEI0204",
+                f"this robot has no `{skill.owner}`, which `{name}` needs",
+                call.callee.span,
+                f"performed by `{skill.owner}`",
+                notes=(self._reporter.rule(skill.span), f"this robot has {listed(self._registry.owners, 12)}"),
+            )
+        else:
+            return skill
+        return None
+
+    def _look_at_arguments(self, call: Call, scope: Scope) -> None:
+        """Evaluate the arguments of a call that cannot be checked, for the mistakes in themselves."""
+        for arg in call.args:
+            self._evaluator.value(arg.value, scope, ANY_WORD)
+
+    def _prepare(self, skill: SkillSpec) -> _Prepared:
+        prepared = self._prepared.get(skill.name)
+        if prepared is None:
+            signature = Signature(
+                "skill",
+                skill.name,
+                tuple(spec.name for spec in skill.args),
+                tuple(spec.name for spec in skill.args if spec.required),
+                skill.span,
+            )
+            expectations = tuple((spec, expectation(spec, skill.name)) for spec in skill.args)
+            prepared = _Prepared(skill, signature, expectations, effects_of(skill))
+            self._prepared[skill.name] = prepared
+        return prepared
+
+    def _argument(
+        self, given: Arg | None, spec: ArgSpec, expected: Expectation, scope: Scope, state: State
+    ) -> Val | None:
+        """The checked value of one argument; None for one that neither the call nor the skill bank gives."""
+        if given is None:
+            return default_of(spec, self._registry)
+        words = (*self._registry.arms, ANY_ARM) if spec.type == "Arm" else spec.choices if spec.type == "choice" else ()
+        value = self._evaluator.value(given.value, scope, words)
+        value = self._types.coerce(value, expected, given.value, state)
+        if isinstance(value, PlaceValue) and spec.type == "Place" and spec.choices and value.kind not in spec.choices:
+            return self._wrong_kind_of_place(value, spec, expected, given.value)
+        return self._in_range(value, spec, expected, given.value)
+
+    def _wrong_kind_of_place(self, value: PlaceValue, spec: ArgSpec, expected: Expectation, node: Expression) -> Val:
+        wanted = " or ".join(f"a {choice}" for choice in spec.choices)
+        self._reporter.report(
+            "XEI0305",
+            f"`{show(value)}` is a {value.kind}, but {expected.what} takes {wanted}",
+            node.span,
+            f"expected {wanted}, found a {value.kind}",
+            notes=(self._reporter.rule(spec.span),),
+        )
+        return POISON
+
+    def _in_range(self, value: Val, spec: ArgSpec, expected: Expectation, node: Expression) -> Val:
+        if (spec.min is None and spec.max is None) or not arithmetic.is_numeric(value):
+            return value
+        low, high = (value.lower, value.upper) if isinstance(value, Interval) else (value, value)
+        try:
+            below = spec.min is not None and arithmetic.compare("<", low, spec.min) is True
+            above = spec.max is not None and arithmetic.compare(">", high, spec.max) is True
+        except DimensionError:
+            return value
+        if not below and not above:
+            return value
+        bounds = f"{spec.min if spec.min is not None else '...'} .. {spec.max if spec.max is not None else '...'}"
+        may = "may be" if isinstance(value, Interval) else "is"
+        side = f"less than {spec.min}" if below else f"more than {spec.max}"
+        self._reporter.report(
+            "XEI0308",
+            f"{expected.what} {may} {show(low if below else high)}, {side}",
+            node.span,
+            f"expected {bounds}",
+            notes=(self._reporter.rule(spec.span),),
+        )
+        return POISON
+
+    def _slots_accept(self, prepared: _Prepared, given: Mapping[str, Arg], values: Mapping[str, Val | None]) -> bool:
+        """Whether each slot takes the object that the skill brings there."""
+        for moved, target in moves(prepared.effects):
+            thing, place = values.get(moved), values.get(target)
+            if not isinstance(thing, ObjectValue) or not isinstance(place, PlaceValue) or target not in given:
+                continue
+            grid = place.owner.registered.slots if place.owner.registered and place.kind == "slot" else None
+            if grid is None or thing.registered is None or not grid.accepts:
+                continue
+            if not set(grid.accepts) & set(thing.registered.roles):
+                self._refused(thing, place, grid.accepts, given[target])
+                return False
+        return True
+
+    def _refused(self, thing: ObjectValue, place: PlaceValue, accepts: tuple[str, ...], arg: Arg) -> None:
+        assert thing.registered is not None and place.owner.registered is not None
+        grid = place.owner.registered.slots
+        self._reporter.report(
+            "XEI0310",
+            f"`{show_place(place.ref)}` does not accept `{thing.name}`",
+            arg.value.span,
+            f"accepts {listed(accepts)}; `{thing.name}` has the roles {', '.join(thing.registered.roles)}",
+            notes=(self._reporter.rule(grid.span),) if grid else (),
+        )
+
+
+def _present(prepared: _Prepared, values: Mapping[str, Val | None]) -> Iterator[tuple[ArgSpec, Val]]:
+    for spec, _ in prepared.expectations:
+        value = values[spec.name]
+        if value is not None:
+            yield spec, value
+
+
+def _planned(spec: ArgSpec, value: Val, given: Mapping[str, Arg]) -> Argument:
+    arg = given.get(spec.name)
+    planned = _typed(value, spec)
+    if arg is None:
+        return Argument(spec.name, planned, spec.type, "default", spec.span)
+    return Argument(spec.name, planned, spec.type, "call", arg.span)
+
+
+def _typed(value: Val, spec: ArgSpec) -> Value:
+    planned = to_plan(value)
+    return float(planned) if spec.type == "Float" and isinstance(planned, int) else planned
+
+
+def expectation(spec: ArgSpec, skill: str) -> Expectation:
+    """What an argument of a skill takes, and why."""
+    what = f"`{spec.name}` of `{skill}`"
+    inner, lists = spec.type, 0
+    while inner.startswith("List[") and inner.endswith("]"):
+        inner, lists = inner[5:-1], lists + 1
+    choices = spec.choices if inner == "choice" else ()
+    return Expectation(what, inner, spec.span, spec.roles, choices, lists)
+
+
+def default_of(spec: ArgSpec, registry: Registry) -> Val | None:
+    """The skill bank's own value of an argument; the profile's check has seen to it that it is of its type."""
+    default = spec.default
+    if default is None or isinstance(default, (bool, int, Quantity)):
+        return default
+    if isinstance(default, float):
+        return arithmetic.exact(default)
+    if spec.type in ("Arm", "choice"):
+        return Word(default)
+    if spec.type == "object" and default in registry.objects:
+        return ObjectValue(default, registry.objects[default])
+    try:
+        return default if spec.type == "String" else parse_quantity(default)
+    except QuantityError:
+        return default

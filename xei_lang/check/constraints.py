@@ -1,0 +1,76 @@
+"""Clauses of time as constraints between ends of steps. They are recorded here, and solved later."""
+
+from __future__ import annotations
+
+import math
+
+from xei_lang.check import arithmetic
+from xei_lang.check.evaluate import Evaluator
+from xei_lang.check.expectation import Expectation
+from xei_lang.check.labels import Found, Labels
+from xei_lang.check.report import Reporter
+from xei_lang.check.scope import Scope
+from xei_lang.check.state import State
+from xei_lang.check.types import Types
+from xei_lang.check.values import Val, nominal, show
+from xei_lang.ir.skill_plan import TimeConstraint
+from xei_lang.quantity import Quantity
+from xei_lang.syntax.ast import After, Clause, Expression, Within
+
+
+class Clauses:
+    """Turns `within` and `after` clauses into constraints."""
+
+    def __init__(self, evaluator: Evaluator, types: Types, reporter: Reporter) -> None:
+        self._evaluator = evaluator
+        self._types = types
+        self._reporter = reporter
+
+    def constraint(self, clause: Clause, own: Found, labels: Labels, scope: Scope, state: State) -> TimeConstraint | None:
+        """What a clause of the steps `own` says; None where it is wrong, or covers no step at all."""
+        if isinstance(clause, After):
+            return self._after(clause, own, labels, scope, state)
+        return self._within(clause, own, labels, scope, state)
+
+    def duration(self, node: Expression, what: str, scope: Scope, state: State) -> Quantity | None:
+        """A time that is not negative; None where it is wrong, or open without a value to stand for it."""
+        value = self._evaluator.value(node, scope)
+        value = nominal(self._types.coerce(value, Expectation(what, "Time"), node, state))
+        if not isinstance(value, Quantity):
+            return None
+        if value.value < 0:
+            self._reporter.report("XEI0322", f"{what} takes a time that is not negative", node.span, f"is {show(value)}")
+            return None
+        return value
+
+    def _within(self, clause: Within, own: Found, labels: Labels, scope: Scope, state: State) -> TimeConstraint | None:
+        bound = self.duration(clause.duration, "`within`", scope, state)
+        start = own if clause.of is None else labels.find(clause.of, self._reporter)
+        if bound is None or own is None or start is None:
+            return None
+        if clause.of is None:
+            return TimeConstraint(own.first, "start", own.last, "end", 0.0, bound.si, clause.span)
+        return TimeConstraint(start.last, "end", own.first, "start", 0.0, bound.si, clause.span)
+
+    def _after(self, clause: After, own: Found, labels: Labels, scope: Scope, state: State) -> TimeConstraint | None:
+        before = labels.find(clause.step, self._reporter)
+        low: Val | None = None
+        high: Val | None = None
+        if clause.by is not None:
+            low = self.duration(clause.by.lower, "`by`", scope, state)
+            high = self.duration(clause.by.upper, "`by`", scope, state)
+            if low is None or high is None:
+                return None
+            if arithmetic.compare(">", low, high):
+                self._reporter.report(
+                    "XEI0322",
+                    f"nothing can be `by {show(low)} .. {show(high)}` after a step",
+                    clause.by.span,
+                    "the first time is longer than the second",
+                    help=("write the shorter time first",),
+                )
+                return None
+        if own is None or before is None:
+            return None
+        bounds = (low.si, high.si) if isinstance(low, Quantity) and isinstance(high, Quantity) else (0.0, math.inf)
+        return TimeConstraint(before.last, "end", own.first, "start", *bounds, clause.span)

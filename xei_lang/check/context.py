@@ -1,0 +1,62 @@
+"""The parts of the checker, put together once for a protocol and its profile."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from xei_lang.check.binding import Binder, CheckOptions
+from xei_lang.check.calls import Calls
+from xei_lang.check.constraints import Clauses
+from xei_lang.check.evaluate import Evaluator
+from xei_lang.check.given import Givens
+from xei_lang.check.places import Places
+from xei_lang.check.registry import Registry
+from xei_lang.check.report import Reporter
+from xei_lang.check.scope import Usage
+from xei_lang.check.types import Types
+from xei_lang.diagnostics import Source
+from xei_lang.profiles.model import Profile
+from xei_lang.syntax.ast import Module, Procedure
+
+
+@dataclass(frozen=True, slots=True)
+class Context:
+    """What every part of the expansion uses."""
+
+    source: Source
+    options: CheckOptions
+    registry: Registry
+    reporter: Reporter
+    usage: Usage
+    types: Types
+    evaluator: Evaluator
+    calls: Calls
+    clauses: Clauses
+    givens: Givens
+    binder: Binder
+    procedures: Mapping[str, Procedure]
+
+
+def make_context(module: Module, source: Source, profile: Profile, options: CheckOptions) -> Context:
+    """The checker's parts for one file and one profile. Of two procedures of one name, the first counts."""
+    registry = Registry.of(profile)
+    reporter = Reporter(options.sources)
+    places = Places(reporter)
+    types = Types(registry, places, reporter)
+    evaluator = Evaluator(registry, places, reporter, options.max_steps)
+    procedures = [item for item in module.items if isinstance(item, Procedure)]
+    return Context(
+        source,
+        options,
+        registry,
+        reporter,
+        Usage(),
+        types,
+        evaluator,
+        Calls(registry, evaluator, types, reporter),
+        Clauses(evaluator, types, reporter),
+        Givens(evaluator, types, reporter),
+        Binder(registry, evaluator, types, reporter, options),
+        {item.name.id: item for item in reversed(procedures)},
+    )

@@ -1,0 +1,201 @@
+"""Statements to steps: loops are unrolled, choices taken, procedures inlined, and the state walks along."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+
+from xei_lang.check import choices, loops, procedures, unsupported
+from xei_lang.check.context import Context
+from xei_lang.check.effects import apply_effects, resources_of
+from xei_lang.check.labels import Labels
+from xei_lang.check.paths import step_names
+from xei_lang.check.plan_builder import PlanBuilder, Where
+from xei_lang.check.scope import Scope
+from xei_lang.check.state import State
+from xei_lang.diagnostics import Span
+from xei_lang.ir.skill_plan import Argument
+from xei_lang.syntax.ast import (
+    Block,
+    Call,
+    Confirm,
+    Do,
+    For,
+    Given,
+    GivenContains,
+    If,
+    Let,
+    Member,
+    Note,
+    ObjectDecl,
+    Param,
+    ProfileDecl,
+    Repeat,
+    Require,
+    Step,
+    Unmapped,
+    Wait,
+    walk,
+)
+from xei_lang.syntax.ast import Name as NameNode
+
+MAX_DEPTH = 40
+"""How deep blocks and calls may lie in each other once procedures are inlined."""
+
+
+class Expander:
+    """Walks the statements of a protocol once, in their order, and adds their steps to a plan."""
+
+    def __init__(self, context: Context, plan: PlanBuilder, state: State) -> None:
+        self.context = context
+        self.plan = plan
+        self.state = state
+        self.labels = Labels()
+        self.loops: list[Span] = []
+        self.called: set[str] = set()
+        self._names: dict[Span, Mapping[Span, str]] = {}
+        self._resources: dict[tuple[object, ...], tuple[str, ...]] = {}
+
+    def members(self, members: Iterable[Member], scope: Scope, where: Where) -> None:
+        """Expand declarations and statements in their order; stops where the plan is full."""
+        for member in members:
+            if self.plan.full:
+                return
+            self._member(member, scope, where)
+
+    def block(self, block: Block, scope: Scope, where: Where) -> None:
+        """Expand a block in a scope of its own."""
+        self.members(block.statements, scope.child(), where.deeper())
+
+    def names_of(self, block: Block) -> Mapping[Span, str]:
+        """The names of the steps of a block that is a name space."""
+        if block.span not in self._names:
+            self._names[block.span] = step_names(block.statements)
+        return self._names[block.span]
+
+    def skip(self, block: Block, scope: Scope) -> None:
+        """Pass over a block that does not happen; what it names counts as used."""
+        for node in walk(block):
+            if isinstance(node, NameNode):
+                scope.find(node.id)
+
+    def _member(self, member: Member, scope: Scope, where: Where) -> None:
+        match member:
+            case Step():
+                self._step(member, scope, where)
+            case Let():
+                value = self.context.evaluator.value(member.value, scope)
+                scope.declare(member.name, "let", value, self.context.reporter)
+            case Note() | Unmapped():
+                self.plan.remark(member, where.origin)
+            case Require():
+                unsupported.refuse(self.context.reporter, member)
+            case _:
+                self._declaration(member, scope, where)
+
+    def _declaration(self, member: Member, scope: Scope, where: Where) -> None:
+        match member:
+            case Param():
+                self._param(member, scope, where)
+            case ObjectDecl():
+                self.context.binder.object(member, scope)
+            case Given():
+                self.context.givens.given(member, scope, self.state)
+            case GivenContains():
+                self.context.givens.contains(member, scope, self.state)
+            case ProfileDecl() if where.origin:
+                self._misplaced(member.span, "a profile is named by the protocol, not by a procedure")
+            case _:
+                pass
+
+    def _param(self, member: Param, scope: Scope, where: Where) -> None:
+        if where.origin:
+            self._misplaced(member.span, "a procedure declares its parameters in parentheses after its name")
+        self.context.binder.param(member, scope, self.state)
+
+    def _misplaced(self, span: Span, message: str) -> None:
+        self.context.reporter.report("XEI0212", message, span, "not allowed inside a procedure")
+
+    def _step(self, step: Step, scope: Scope, where: Where) -> None:
+        before = len(self.plan.steps)
+        self._action(step, scope, where)
+        if not step.clauses and step.label is None:
+            return
+        found = self.plan.since(before)
+        for clause in step.clauses:
+            constraint = self.context.clauses.constraint(clause, found, self.labels, scope, self.state)
+            if constraint is not None:
+                self.plan.constraints.append(constraint)
+        if step.label is not None:
+            self.labels.add(step.label.id, found)
+
+    def _action(self, step: Step, scope: Scope, where: Where) -> None:
+        action = step.action
+        match action:
+            case Call():
+                self._call(step, action, scope, where)
+            case Wait():
+                self._wait(step, action, scope, where)
+            case Confirm():
+                text = Argument("text", action.text.value, "String", "call", action.text.span)
+                facts = self.state.facts()
+                self.plan.add(
+                    step, "confirm", where, facts, owner="person", args=(text,), duration_s=(0.0, math.inf), resources=("person",)
+                )
+            case Do():
+                self.named_block(step, action.body, scope, where)
+            case For():
+                loops.for_loop(self, step, action, scope, where)
+            case Repeat():
+                loops.repeat(self, step, action, scope, where)
+            case If():
+                choices.choice(self, step, action, scope, where)
+            case _:
+                unsupported.refuse(self.context.reporter, action)
+                unsupported.look_inside(self, step, scope, where)
+
+    def named_block(self, step: Step, block: Block, scope: Scope, where: Where) -> None:
+        """Expand the block of a step that happens once; with a label it is a name space."""
+        self.labels.open()
+        if step.label is None:
+            self.block(block, scope, where)
+            self.labels.close()
+        else:
+            self.block(block, scope, where.under(f"{where.path(step)}.", self.names_of(block)))
+            self.labels.close_named(step.label.id)
+
+    def _call(self, step: Step, call: Call, scope: Scope, where: Where) -> None:
+        name = call.callee.id
+        procedure = self.context.procedures.get(name)
+        if procedure is not None and name not in self.context.registry.skills:
+            procedures.inline(self, step, call, procedure, scope, where)
+            return
+        checked = self.context.calls.check(call, scope, self.state, tuple(self.context.procedures))
+        if checked is None:
+            return
+        values = checked.values
+        skill = checked.skill
+        key = (skill.name, *(str(values[spec.name]) for spec in skill.args if spec.type == "Arm" and spec.name in values))
+        if key not in self._resources:
+            self._resources[key] = resources_of(skill, values)
+        self.plan.add(
+            step,
+            "skill",
+            where,
+            self.state.facts(),
+            skill=skill.name,
+            owner=skill.owner,
+            args=checked.arguments,
+            duration_s=skill.duration_s,
+            resources=self._resources[key],
+        )
+        apply_effects(checked.effects, values, self.state)
+
+    def _wait(self, step: Step, action: Wait, scope: Scope, where: Where) -> None:
+        duration = self.context.clauses.duration(action.duration, "`wait`", scope, self.state)
+        if duration is None:
+            return
+        argument = Argument("duration", duration, "Time", "call", action.duration.span)
+        self.plan.add(
+            step, "wait", where, self.state.facts(), args=(argument,), duration_s=(duration.si, duration.si)
+        )

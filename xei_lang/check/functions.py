@@ -1,0 +1,125 @@
+"""The functions of expressions: `zip`, `len`, `sum`, `min`, `max`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import reduce
+from math import ceil
+
+from xei_lang.check import arithmetic
+from xei_lang.check.report import Reporter, meant
+from xei_lang.check.values import POISON, ListValue, Val, kind
+from xei_lang.diagnostics import Span, did_you_mean
+from xei_lang.quantity import DimensionError, Quantity
+from xei_lang.syntax.ast import CallExpr, Name
+
+_LATER = ("chunks", "pairs", "product", "shuffle")
+STATE_VARIABLES = ("volume", "temperature", "contents", "age", "holding", "at", "cap", "door", "power", "upright")
+"""Names that a protocol may ask for the state of something; values of these come with state checking."""
+
+
+def not_yet(reporter: Reporter, words: str, span: Span) -> None:
+    """Refuse a construct that belongs to the language and that this version gives no meaning to."""
+    reporter.report(
+        "XEI0105",
+        f"{words} cannot be compiled yet",
+        span,
+        "not supported by this version",
+        help=("leave it out for now, or write the same with the constructs that are supported",),
+    )
+
+
+class Functions:
+    """Calls of functions whose arguments are already values."""
+
+    def __init__(self, reporter: Reporter) -> None:
+        self._reporter = reporter
+        self._table: dict[str, Callable[[CallExpr, tuple[Val, ...]], Val]] = {
+            "zip": self._zip,
+            "len": self._len,
+            "sum": self._sum,
+            "min": self._least,
+            "max": self._greatest,
+            "ceil": self._ceil,
+        }
+        self.names = tuple(self._table)
+
+    def call(self, function: Name, node: CallExpr, args: tuple[Val, ...]) -> Val:
+        """The value of a call of a known function; POISON where an argument is."""
+        named = next((arg for arg in node.args if arg.name is not None), None)
+        if named is not None and named.name is not None:
+            return self._wrong(f"`{function.id}` takes no argument `{named.name.id}`", named.span)
+        return POISON if POISON in args else self._table[function.id](node, args)
+
+    def unknown(self, function: Name, skills: tuple[str, ...]) -> Val:
+        """Report a call of something that is no function of expressions."""
+        name = function.id
+        if name in _LATER:
+            not_yet(self._reporter, f"the function `{name}`", function.span)
+        elif name in STATE_VARIABLES:
+            not_yet(self._reporter, f"asking for a state, as `{name}(...)` does,", function.span)
+        elif name == "range":
+            self._wrong("`range` is written as `1 .. 8` here", function.span, "both ends are included")
+        elif name in skills:
+            self._wrong(f"`{name}` is a skill and has no value", function.span, "a skill is a statement of its own")
+        else:
+            known = (*self.names, *_LATER, *STATE_VARIABLES)
+            self._reporter.report(
+                "XEI0319",
+                f"there is no function `{name}`",
+                function.span,
+                "not a function",
+                help=meant(did_you_mean(name, known)) or (f"there are {', '.join(self.names)}",),
+            )
+        return POISON
+
+    def _zip(self, node: CallExpr, args: tuple[Val, ...]) -> Val:
+        lists = [arg for arg in args if isinstance(arg, ListValue)]
+        if len(lists) < 2 or len(lists) < len(args):
+            return self._wrong("`zip` takes two lists or more", node.span)
+        lengths = [len(item.items) for item in lists]
+        if len(set(lengths)) > 1:
+            self._reporter.report(
+                "XEI0320",
+                f"`zip` of lists of different lengths: {', '.join(map(str, lengths))}",
+                node.span,
+                "each turn takes one of each, so the lists must be equally long",
+                help=("take a part of the longer list, as in `rack.slots[1 .. 6]`",),
+            )
+            return POISON
+        return ListValue(tuple(ListValue(row) for row in zip(*(item.items for item in lists), strict=True)))
+
+    def _len(self, node: CallExpr, args: tuple[Val, ...]) -> Val:
+        if len(args) == 1 and isinstance(args[0], ListValue):
+            return len(args[0].items)
+        return self._wrong("`len` takes one list", node.span)
+
+    def _sum(self, node: CallExpr, args: tuple[Val, ...]) -> Val:
+        return self._fold(node, args, lambda left, right: arithmetic.combine("+", left, right))
+
+    def _least(self, node: CallExpr, args: tuple[Val, ...]) -> Val:
+        return self._fold(node, args, lambda left, right: right if arithmetic.compare("<", right, left) else left)
+
+    def _greatest(self, node: CallExpr, args: tuple[Val, ...]) -> Val:
+        return self._fold(node, args, lambda left, right: right if arithmetic.compare(">", right, left) else left)
+
+    def _ceil(self, node: CallExpr, args: tuple[Val, ...]) -> Val:
+        value = args[0] if len(args) == 1 else None
+        if value is None or not arithmetic.is_numeric(value) or isinstance(value, Quantity):
+            return self._wrong("`ceil` takes one plain number", node.span)
+        return ceil(value)  # type: ignore[arg-type]
+
+    def _fold(self, node: CallExpr, args: tuple[Val, ...], step: Callable[[Val, Val], Val]) -> Val:
+        items = args[0].items if len(args) == 1 and isinstance(args[0], ListValue) else args
+        wrong = next((item for item in items if not arithmetic.is_numeric(item)), None)
+        if not items or wrong is not None:
+            found = "" if wrong is None else f", not {kind(wrong)}"
+            return self._wrong(f"this takes numbers or quantities, or a list of them{found}", node.span)
+        try:
+            return reduce(step, items)
+        except DimensionError as error:
+            return self._wrong(f"cannot {error.operation} {error.left.name} and {error.right.name}", node.span)
+
+    def _wrong(self, message: str, span: Span, label: str = "") -> Val:
+        self._reporter.report("XEI0319", message, span, label)
+        return POISON

@@ -1,0 +1,39 @@
+"""What is known before the first step: empty hands, and what the profile believes about where things stand."""
+
+from __future__ import annotations
+
+from xei_lang.check.registry import Registry
+from xei_lang.check.state import NOTHING, State
+from xei_lang.ir.skill_plan import PlaceRef
+from xei_lang.profiles.model import LabObject
+
+
+def initial_state(registry: Registry) -> State:
+    """Nothing in the hands; each object where its prior has it; declared states with their initial values.
+
+    An object whose prior is a pose in the frame of a bench stands somewhere on that bench.
+    """
+    state = State(registry.arms)
+    for arm in registry.arms:
+        state.set("holding", arm, NOTHING)
+    for thing in registry.objects.values():
+        place = None if thing.system else _place(thing, registry)
+        if place is not None:
+            state.set("at", thing.name, place)
+        for declared in thing.states:
+            state.set(declared.name, thing.name, declared.initial)
+    return state
+
+
+def _place(thing: LabObject, registry: Registry) -> PlaceRef | None:
+    prior = thing.prior
+    if prior is None:
+        return None
+    owner = registry.objects.get(prior.in_object or prior.frame)
+    if owner is None or owner is thing:
+        return None
+    if not prior.in_object:
+        return PlaceRef(owner.name, "surface", "")
+    if any(spot.name == prior.in_key for spot in owner.spots):
+        return PlaceRef(owner.name, "spot", prior.in_key)
+    return PlaceRef(owner.name, "slot" if prior.in_key else "surface", prior.in_key)

@@ -1,0 +1,192 @@
+"""Lists: ranges that are counted before anything is made, indices that count from 1, comprehensions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Protocol, overload
+
+from xei_lang.check import arithmetic
+from xei_lang.check.report import Reporter
+from xei_lang.check.scope import Scope
+from xei_lang.check.values import POISON, ListValue, Numeric, Val, kind, nominal, show
+from xei_lang.diagnostics import Span
+from xei_lang.quantity import DimensionError, Quantity
+from xei_lang.syntax.ast import Comprehension, Expression, Index, Name, Range
+
+
+class Evaluate(Protocol):
+    """How a list's parts are evaluated."""
+
+    def __call__(self, node: Expression | Range, scope: Scope) -> Val: ...
+
+
+@dataclass(frozen=True, slots=True)
+class Progression(Sequence[Val]):
+    """`first, first + step, ...`, so many of them; each is made when it is asked for."""
+
+    first: Numeric
+    step: Numeric
+    count: int
+
+    def __len__(self) -> int:
+        return self.count
+
+    @overload
+    def __getitem__(self, index: int) -> Val: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[Val]: ...
+    def __getitem__(self, index: int | slice) -> Val | Sequence[Val]:
+        if isinstance(index, slice):
+            return [self[i] for i in range(*index.indices(self.count))]
+        if not 0 <= index < self.count:
+            raise IndexError(index)
+        return arithmetic.combine("+", self.first, arithmetic.combine("*", self.step, index))
+
+
+class Lists:
+    """Evaluates what makes lists and what takes them apart."""
+
+    def __init__(self, reporter: Reporter, evaluate: Evaluate, max_items: int) -> None:
+        self._reporter = reporter
+        self._evaluate = evaluate
+        self._max_items = max_items
+
+    def range(self, node: Range, scope: Scope) -> Val:
+        """`1 .. 8`, `0 mL .. 5 mL step 1 mL`: both ends included; empty where the end lies before the start."""
+        parts = [nominal(self._evaluate(part, scope)) for part in (node.lower, node.upper)]
+        step = 1 if node.step is None else nominal(self._evaluate(node.step, scope))
+        if POISON in parts or step is POISON:
+            return POISON
+        for value, part in zip((*parts, step), (node.lower, node.upper, node.step or node.upper), strict=True):
+            if not arithmetic.is_numeric(value):
+                return self._wrong("XEI0305", f"`{show(value)}` is {kind(value)}, but a range needs numbers", part.span)
+        if node.step is None and not (isinstance(parts[0], int) and isinstance(parts[1], int)):
+            return self._wrong(
+                "XEI0314",
+                f"the range `{show(parts[0])} .. {show(parts[1])}` needs a step",
+                node.span,
+                "only whole numbers go up by one by themselves",
+                (f"write for example `{show(parts[0])} .. {show(parts[1])} step {show(parts[0])}`",),
+            )
+        return self._progression(node, parts[0], parts[1], step)
+
+    def _progression(self, node: Range, lower: Val, upper: Val, step: Val) -> Val:
+        span = (node.step or node).span
+        try:
+            width = arithmetic.combine("-", upper, lower)
+            if not arithmetic.compare(">", step, arithmetic.combine("-", step, step)):
+                return self._wrong("XEI0314", f"the step `{show(step)}` does not go up", span, "expected more than zero")
+            turns = arithmetic.combine("/", width, step)
+        except DimensionError as error:
+            names = f"{error.left.name} and {error.right.name}"
+            return self._wrong("XEI0312", f"the parts of this range do not go together: {names}", node.span)
+        if isinstance(turns, Quantity):
+            return self._wrong("XEI0312", "the step of this range is of another dimension than its ends", span)
+        assert isinstance(turns, (int, Fraction))
+        assert isinstance(lower, (int, Fraction, Quantity)) and isinstance(step, (int, Fraction, Quantity))
+        return ListValue(Progression(lower, step, max(0, int(turns) + 1 if turns >= 0 else 0)))
+
+    def index(self, node: Index, scope: Scope) -> Val:
+        """`list[2]`, `list[1 .. 4]`, counted from 1."""
+        value = self._evaluate(node.value, scope)
+        which = self._evaluate(node.index, scope)
+        if value is POISON or which is POISON:
+            return POISON
+        if not isinstance(value, ListValue):
+            return self._wrong("XEI0314", f"`{show(value)}` is {kind(value)}, not a list", node.value.span)
+        if isinstance(which, ListValue):
+            return self._part(value, which, node)
+        position = self._position(nominal(which), value, node)
+        return POISON if position is None else value.items[position]
+
+    def _part(self, value: ListValue, which: ListValue, node: Index) -> Val:
+        chosen: list[Val] = []
+        ends = (which.items[0], which.items[-1]) if which.items else ()
+        if any(self._position(end, value, node) is None for end in ends):
+            return POISON
+        for item in which.items:
+            position = self._position(item, value, node)
+            if position is None:
+                return POISON
+            chosen.append(value.items[position])
+        return ListValue(tuple(chosen))
+
+    def _position(self, which: Val, value: ListValue, node: Index) -> int | None:
+        count = len(value.items)
+        if not isinstance(which, int) or isinstance(which, bool):
+            self._wrong("XEI0314", f"`{show(which)}` cannot number a member of a list", node.index.span)
+            return None
+        if not 1 <= which <= count:
+            self._wrong(
+                "XEI0314",
+                f"there is no member {which} in a list of {count}",
+                node.index.span,
+                f"expected 1 .. {count}" if count else "the list is empty",
+                ("members are counted from 1",) if which == 0 else (),
+            )
+            return None
+        return which - 1
+
+    def comprehension(self, node: Comprehension, scope: Scope) -> Val:
+        """`[element for names in list if condition]`."""
+        source = self.members(self._evaluate(node.iterable, scope), node.iterable)
+        if source is None or not self.within_bound(len(source), node.span):
+            return POISON
+        made: list[Val] = []
+        for item in source:
+            inner = scope.child()
+            if not self.unpack(node.names, item, inner, node.iterable.span):
+                return POISON
+            keep = True if node.condition is None else self._evaluate(node.condition, inner)
+            if keep is POISON:
+                return POISON
+            if keep is True:
+                made.append(self._evaluate(node.element, inner))
+        return ListValue(tuple(made))
+
+    def members(self, value: Val, node: Expression | Range) -> Sequence[Val] | None:
+        """What a loop goes through; None where there is nothing to go through, which is reported if it is new."""
+        if isinstance(value, ListValue):
+            return value.items
+        if value is not POISON:
+            self._wrong(
+                "XEI0314",
+                f"`{show(value)}` is {kind(value)}, and a loop goes through a list",
+                node.span,
+                "expected a list or a range such as `1 .. 4`",
+            )
+        return None
+
+    def within_bound(self, count: int, span: Span) -> bool:
+        """Whether a list is short enough to be made."""
+        if count > self._max_items:
+            self._wrong("XEI0316", f"this list would have {count} members", span, f"the bound is {self._max_items}")
+        return count <= self._max_items
+
+    def unpack(self, names: tuple[Name, ...], item: Val, scope: Scope, span: Span) -> bool:
+        """Give the names of a loop their values for one turn."""
+        if len(names) == 1:
+            scope.declare(names[0], "loop variable", item, self._reporter)
+            return True
+        parts: Sequence[Val] = item.items if isinstance(item, ListValue) else ()
+        if item is POISON:
+            parts = [POISON] * len(names)
+        if len(parts) != len(names):
+            found = f"{len(parts)} values" if isinstance(item, ListValue) else kind(item)
+            self._wrong(
+                "XEI0314",
+                f"{len(names)} names for {found} in each turn",
+                names[0].span.join(names[-1].span),
+                f"each turn gives {found}",
+                ("`zip(a, b)` gives two values in each turn",),
+            )
+            return False
+        for name, part in zip(names, parts, strict=True):
+            scope.declare(name, "loop variable", part, self._reporter)
+        return True
+
+    def _wrong(self, code: str, message: str, span: Span, label: str = "", help: tuple[str, ...] = ()) -> Val:
+        self._reporter.report(code, message, span, label, help=help)
+        return POISON

@@ -1,0 +1,132 @@
+"""Loops, unrolled up to a bound that is known before the loop is."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from xei_lang.check.functions import not_yet
+from xei_lang.check.plan_builder import Where
+from xei_lang.check.scope import Scope
+from xei_lang.check.values import POISON, Val, kind, nominal, show
+from xei_lang.diagnostics import Span
+from xei_lang.syntax.ast import Block, Call, For, If, Let, Name, Repeat, Step, walk
+
+if TYPE_CHECKING:
+    from xei_lang.check.expand import Expander
+
+
+def for_loop(expander: Expander, step: Step, loop: For, scope: Scope, where: Where) -> None:
+    """`for a, b in list { }`: one turn for each member."""
+    context = expander.context
+    if loop.unordered:
+        not_yet(context.reporter, "`unordered`, turns of a loop in any order,", _word(expander, loop, "unordered"))
+    value = context.evaluator.value(loop.iterable, scope)
+    items = context.evaluator.lists.members(value, loop.iterable)
+    if items is None:
+        items = (POISON,)
+    _turns(expander, step, loop, items, scope, where)
+
+
+def repeat(expander: Expander, step: Step, loop: Repeat, scope: Scope, where: Where) -> None:
+    """`repeat 3 times { }`."""
+    context = expander.context
+    if loop.until is not None:
+        not_yet(context.reporter, "`until`, a loop that ends by what was measured,", _word(expander, loop, "until"))
+    count = nominal(context.evaluator.value(loop.count, scope))
+    if count is POISON:
+        count = 1
+    if isinstance(count, bool) or not isinstance(count, int) or count < 0:
+        context.reporter.report(
+            "XEI0317",
+            f"`{show(count)}` is no number of turns",
+            loop.count.span,
+            f"expected a whole number, found {kind(count)}" if not isinstance(count, int) else "expected 0 or more",
+        )
+        count = 1
+    _turns(expander, step, loop, range(1, count + 1), scope, where)
+
+
+def _turns(
+    expander: Expander, step: Step, loop: For | Repeat, items: Sequence[Val], scope: Scope, where: Where
+) -> None:
+    plan, count = expander.plan, len(items)
+    if count > plan.max_steps and loop.body.statements:
+        _too_many(expander, loop, f"takes {count} turns")
+        return
+    if not count:
+        expander.skip(loop.body, scope)
+    expander.loops.append(loop.span)
+    start = len(plan.steps)
+    for number, item in enumerate(items, start=1):
+        _turn(expander, step, loop, number, item, scope, where)
+        made = len(plan.steps) - start
+        if number == 1 and start + made * count > plan.max_steps and _regular(expander, loop):
+            plan.full = True
+            _too_many(expander, loop, f"makes {made * count} steps")
+        if plan.full:
+            break
+    expander.loops.pop()
+    if plan.full and not expander.loops and count > 1:
+        _too_many(expander, loop, "makes too many steps")
+
+
+def _turn(
+    expander: Expander, step: Step, loop: For | Repeat, number: int, item: Val, scope: Scope, where: Where
+) -> None:
+    inner = scope.child()
+    lists = expander.context.evaluator.lists
+    if isinstance(loop, For) and not lists.unpack(loop.names, item, inner, loop.iterable.span):
+        for name in loop.names:
+            if inner.find(name.id) is None:
+                inner.declare(name, "loop variable", POISON, expander.context.reporter)
+    expander.labels.open()
+    if step.label is None:
+        expander.block(loop.body, inner, where.in_turn(number))
+        expander.labels.close(number)
+        return
+    before = len(expander.plan.steps)
+    prefix = f"{where.path(step)}[{number}]."
+    expander.block(loop.body, inner, where.under(prefix, expander.names_of(loop.body), number))
+    expander.labels.close_named(step.label.id, f"[{number}]")
+    expander.labels.add(step.label.id, expander.plan.since(before), f"[{number}]")
+
+
+def _too_many(expander: Expander, loop: For | Repeat, what: str) -> None:
+    """One report for one expansion: the first loop that is seen to be too much is the one to name."""
+    plan, reporter = expander.plan, expander.context.reporter
+    if plan.overflow is not None:
+        return
+    head = Span(loop.span.file, loop.span.start, loop.body.span.start)
+    shown = " ".join(expander.context.source.slice(head).split())
+    head = Span(head.file, head.start, head.start + len(expander.context.source.slice(head).rstrip()))
+    plan.full, plan.overflow = True, head
+    reporter.report(
+        "XEI0316",
+        f"`{shown}` {what}",
+        head,
+        f"a plan may have {plan.max_steps} steps",
+        help=("do fewer turns, or divide the work into several protocols",),
+    )
+
+
+def _regular(expander: Expander, loop: For | Repeat) -> bool:
+    """Whether each turn makes as many steps as the first: nothing in the body decides how often by the turn."""
+    names: set[str] = {name.id for name in loop.names} if isinstance(loop, For) else set()
+    nodes = list(walk(loop.body))
+    names |= {node.name.id for node in nodes if isinstance(node, Let)}
+    for node in nodes:
+        if isinstance(node, If) or (isinstance(node, Call) and node.callee.id in expander.context.procedures):
+            return False
+        head = node.iterable if isinstance(node, For) else node.count if isinstance(node, Repeat) else None
+        if head is not None and any(isinstance(part, Name) and part.id in names for part in walk(head)):
+            return False
+    return True
+
+
+def _word(expander: Expander, loop: For | Repeat, word: str) -> Span:
+    """Where a word of the loop's head stands."""
+    head = loop.iterable if isinstance(loop, For) else loop.count
+    body: Block = loop.body
+    at = expander.context.source.text.find(word, head.span.end, body.span.start)
+    return Span(loop.span.file, at, at + len(word)) if at >= 0 else head.span

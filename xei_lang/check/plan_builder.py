@@ -1,0 +1,134 @@
+"""The plan as it grows: steps in their order, their ids, notes and gaps in their places."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+from xei_lang.check.labels import Extent, Found
+from xei_lang.diagnostics import Span
+from xei_lang.ir.skill_plan import Argument, Call, Fact, SafetyNote, StepKind, TimeConstraint, UnmappedRequest
+from xei_lang.ir.skill_plan import Step as PlanStep
+from xei_lang.syntax.ast import Note, Step, Unmapped
+
+_Places = set[tuple[Span, tuple[Call, ...]]]
+
+
+@dataclass(frozen=True, slots=True)
+class Where:
+    """Where in the protocol the checker is.
+
+    `names` are the names of the steps in this name space, `prefix` is the path of the name space with its dot,
+    `indices` are the turns of the loops between it and here; `turn` counts the turns of all loops around.
+    """
+
+    names: Mapping[Span, str]
+    prefix: str = ""
+    indices: tuple[int, ...] = ()
+    turn: tuple[int, ...] = ()
+    origin: tuple[Call, ...] = ()
+    branch: str = ""
+    when: tuple[str, ...] = ()
+    depth: int = 0
+
+    def path(self, step: Step) -> str:
+        """The path of a step here."""
+        return f"{self.prefix}{self.names[step.span]}{''.join(f'[{index}]' for index in self.indices)}"
+
+    def in_turn(self, number: int) -> Where:
+        """Inside a turn of a loop without a label."""
+        return replace(self, indices=(*self.indices, number), turn=(*self.turn, number))
+
+    def deeper(self) -> Where:
+        """One block further in."""
+        return replace(self, depth=self.depth + 1)
+
+    def under(self, prefix: str, names: Mapping[Span, str], turn: int | None = None) -> Where:
+        """Inside a name space of its own: a labelled block, a turn of a labelled loop."""
+        turns = self.turn if turn is None else (*self.turn, turn)
+        return replace(self, names=names, prefix=prefix, indices=(), turn=turns)
+
+    def either_way(self, branch: str, condition: str) -> Where:
+        """In a branch of a choice that is not decided yet."""
+        return replace(self, branch=f"{self.branch}/{branch}" if self.branch else branch, when=(*self.when, condition))
+
+
+@dataclass(slots=True)
+class PlanBuilder:
+    """Collects a plan. `tails` are the steps that the next one follows; `full` says that the bound was reached.
+
+    `overflow` is the loop that was reported for it.
+    """
+
+    max_steps: int
+    steps: list[PlanStep] = field(default_factory=list[PlanStep])
+    constraints: list[TimeConstraint] = field(default_factory=list[TimeConstraint])
+    unmapped: list[UnmappedRequest] = field(default_factory=list[UnmappedRequest])
+    notes: list[SafetyNote] = field(default_factory=list[SafetyNote])
+    tails: tuple[str, ...] = ()
+    full: bool = False
+    overflow: Span | None = None
+    _ids: set[str] = field(default_factory=set[str])
+    _noted: _Places = field(default_factory=set[tuple[Span, tuple[Call, ...]]])
+
+    def add(
+        self,
+        node: Step,
+        kind: StepKind,
+        where: Where,
+        state: tuple[Fact, ...],
+        *,
+        skill: str = "",
+        owner: str = "",
+        args: tuple[Argument, ...] = (),
+        duration_s: tuple[float, float] = (0.0, 0.0),
+        resources: tuple[str, ...] = (),
+    ) -> None:
+        """Add a step after the tails, unless the plan is full."""
+        if len(self.steps) >= self.max_steps:
+            self.full = True
+            return
+        step_id = self._unused(where.path(node))
+        self.steps.append(
+            PlanStep(
+                step_id,
+                kind,
+                node.span,
+                skill,
+                owner,
+                args,
+                duration_s,
+                self.tails,
+                where.branch,
+                where.turn,
+                where.when,
+                resources,
+                state,
+                where.origin,
+            )
+        )
+        self.tails = (step_id,)
+
+    def since(self, count: int) -> Found:
+        """What the steps cover that were added since there were `count` of them."""
+        return Extent(self.steps[count].step_id, self.steps[-1].step_id) if len(self.steps) > count else None
+
+    def remark(self, node: Note | Unmapped, origin: tuple[Call, ...]) -> None:
+        """Keep a note or a gap in its place: once, also where it stands in a loop."""
+        if (node.span, origin) in self._noted:
+            return
+        self._noted.add((node.span, origin))
+        after = self.steps[-1].step_id if self.steps else None
+        if isinstance(node, Note):
+            self.notes.append(SafetyNote(node.text.value, after, node.span))
+        else:
+            reason = node.reason.value if node.reason else ""
+            self.unmapped.append(UnmappedRequest(node.text.value, reason, after, node.span))
+
+    def _unused(self, path: str) -> str:
+        """The path itself; only the branches of a choice that is still open can share one."""
+        found, number = path, 2
+        while found in self._ids:
+            found, number = f"{path}~{number}", number + 1
+        self._ids.add(found)
+        return found

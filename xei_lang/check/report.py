@@ -1,0 +1,82 @@
+"""Where the checker puts what it has to say: each mistake once, however often a loop or a call leads past it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from xei_lang.diagnostics import Diagnostic, Diagnostics, Edit, Fix, Label, Sources, Span
+from xei_lang.diagnostics.diagnostic import Applicability
+from xei_lang.ir.skill_plan import Call
+
+
+class Reporter:
+    """Collects diagnostics in the order in which they are found.
+
+    `calls` is the chain of procedure calls that the checker is in; what is reported inside shows it.
+    """
+
+    def __init__(self, sources: Sources) -> None:
+        self._sources = sources
+        self._found: dict[tuple[str, Span], Diagnostic] = {}
+        self.calls: tuple[Call, ...] = ()
+
+    @property
+    def diagnostics(self) -> Diagnostics:
+        """Everything that was reported, in the order of the text."""
+        return tuple(self._found[key] for key in sorted(self._found, key=lambda key: (key[1], key[0])))
+
+    def report(
+        self,
+        code: str,
+        message: str,
+        span: Span,
+        label: str = "",
+        *,
+        labels: tuple[Label, ...] = (),
+        notes: tuple[str, ...] = (),
+        help: tuple[str, ...] = (),
+        fix: Fix | None = None,
+    ) -> None:
+        """Keep a diagnostic, unless the same code was reported at the same place."""
+        key = (code, span)
+        if key not in self._found:
+            chain = tuple(Label(call.span, f"in this call of `{call.procedure}`") for call in reversed(self.calls))
+            self._found[key] = Diagnostic(code, message, span, label, labels + chain, notes, help, fix)
+
+    def rule(self, span: Span) -> str:
+        """The note that says which line of a profile makes the rule; only the file where its text is not at hand."""
+        source = self._sources.get(span.file)
+        place = f"{span.file}:{source.position(span.start).line}" if source else span.file
+        return f"rule: {place}"
+
+    @contextmanager
+    def inside(self, call: Call) -> Iterator[None]:
+        """While the body of a called procedure is checked."""
+        before = self.calls
+        self.calls = (*before, call)
+        try:
+            yield
+        finally:
+            self.calls = before
+
+
+def replace(span: Span, text: str, applicability: Applicability = "safe") -> Fix:
+    """A fix of one edit."""
+    return Fix(applicability, (Edit(span, text),))
+
+
+def insert(at: Span, text: str, applicability: Applicability = "safe") -> Fix:
+    """A fix that puts a text before a span."""
+    return replace(Span(at.file, at.start, at.start), text, applicability)
+
+
+def listed(names: tuple[str, ...], limit: int = 6) -> str:
+    """Names in backticks; a long list says how many more there are."""
+    shown = ", ".join(f"`{name}`" for name in names[:limit])
+    return f"{shown} and {len(names) - limit} more" if len(names) > limit else shown
+
+
+def meant(suggestions: tuple[str, ...]) -> tuple[str, ...]:
+    """The help line that offers what a wrong name may have been meant to be."""
+    return (f"did you mean {' or '.join(f'`{name}`' for name in suggestions)}?",) if suggestions else ()

@@ -1,0 +1,226 @@
+"""Whether a value is of the type that is expected of it, and what to say where it is not."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from xei_lang.check.expectation import Expectation
+from xei_lang.check.places import Places
+from xei_lang.check.registry import Registry
+from xei_lang.check.report import Reporter, listed, replace
+from xei_lang.check.roles import candidates, first_misfit, text, unmet
+from xei_lang.check.state import State
+from xei_lang.check.values import (
+    POISON,
+    Interval,
+    ListValue,
+    ObjectValue,
+    PlaceValue,
+    Poison,
+    Val,
+    Word,
+    a,
+    kind,
+    number,
+    show,
+    show_place,
+)
+from xei_lang.ir.skill_plan import StationRef
+from xei_lang.quantity import TYPE_DIMENSIONS, UNITS, Quantity, quantity
+from xei_lang.quantity.dimension import NUMBER, Dimension
+from xei_lang.syntax.ast import Expression, QuantityLit, StringLit
+
+VALUE_TYPES = (*TYPE_DIMENSIONS, "Int", "Float", "Bool", "String", "Arm", "Place", "Station")
+"""The types that a parameter may have besides role expressions; `Pose` and tables come with later versions."""
+
+ANY_ARM = "either"
+
+
+class Types:
+    """Turns values into what is expected, or reports why they are not; the result is POISON then."""
+
+    def __init__(self, registry: Registry, places: Places, reporter: Reporter) -> None:
+        self._registry = registry
+        self._places = places
+        self._reporter = reporter
+
+    def coerce(self, value: Val, expected: Expectation, node: Expression, state: State) -> Val:
+        """The value as the expected type has it: a place where an object is expected is its occupant in `state`."""
+        if isinstance(value, Poison):
+            return POISON
+        if expected.lists:
+            return self._list(value, expected, node, state)
+        if expected.type in TYPE_DIMENSIONS:
+            return self._quantity(value, expected, node)
+        match expected.type:
+            case "object":
+                return self._object(value, expected, node, state)
+            case "Place":
+                return self._place(value, expected, node)
+            case "Arm":
+                return self._arm(value, expected, node)
+            case "Int" | "Float":
+                return self._number(value, expected, node)
+            case "choice":
+                return self._choice(value, expected, node)
+            case "Bool" if isinstance(value, bool):
+                return value
+            case "String" if isinstance(value, str):
+                return value
+            case "Station" if isinstance(value, StationRef):
+                return value
+            case _:
+                return self._wrong(value, expected, node)
+
+    def _list(self, value: Val, expected: Expectation, node: Expression, state: State) -> Val:
+        if not isinstance(value, ListValue):
+            return self._wrong(value, expected, node)
+        items = tuple(self.coerce(item, expected.item, node, state) for item in value.items)
+        return POISON if POISON in items else ListValue(items)
+
+    def _quantity(self, value: Val, expected: Expectation, node: Expression) -> Val:
+        dimensions = TYPE_DIMENSIONS[expected.type]
+        probe = value.lower if isinstance(value, Interval) else value
+        if isinstance(probe, Quantity) and probe.dimension in dimensions:
+            return value
+        if isinstance(probe, (int, Fraction)) and not isinstance(probe, bool):
+            return self._no_unit(value, expected, node)
+        if not isinstance(probe, Quantity):
+            return self._wrong(value, expected, node)
+        found = probe.dimension.name
+        mended = _mended_unit(node, dimensions)
+        self._reporter.report(
+            "XEI0306",
+            f"`{show(value)}` is {a(found)}, but {expected.what} takes {expected.noun}",
+            node.span,
+            f"expected {expected.noun}, found {a(found)}",
+            notes=self._rule(expected),
+            help=(f"write `{mended}` if that is what you mean",) if mended else (),
+            fix=replace(node.span, mended, _applicability(node)) if mended else None,
+        )
+        return POISON
+
+    def _no_unit(self, value: Val, expected: Expectation, node: Expression) -> Val:
+        unit = next(symbol for symbol, unit in UNITS.items() if unit.dimension in TYPE_DIMENSIONS[expected.type])
+        units = [symbol for symbol, unit in UNITS.items() if unit.dimension in TYPE_DIMENSIONS[expected.type]]
+        example = f"{show(value)} {units[1] if len(units) > 1 else unit}"
+        self._reporter.report(
+            "XEI0307",
+            f"`{show(value)}` has no unit, but {expected.what} takes {expected.noun}",
+            node.span,
+            f"expected {expected.noun}, found a plain number",
+            notes=self._rule(expected),
+            help=(f"write it with a unit: {', '.join(units[:5])}; for example `{example}`",),
+        )
+        return POISON
+
+    def _number(self, value: Val, expected: Expectation, node: Expression) -> Val:
+        probe = value.lower if isinstance(value, Interval) else value
+        if isinstance(probe, Quantity) and probe.dimension == NUMBER:
+            value = probe = number(probe.value)
+        if isinstance(probe, bool) or not isinstance(probe, (int, Fraction)):
+            return self._wrong(value, expected, node)
+        if expected.type == "Int" and not isinstance(probe, int):
+            return self._wrong(value, expected, node)
+        return value
+
+    def _object(self, value: Val, expected: Expectation, node: Expression, state: State) -> Val:
+        if isinstance(value, PlaceValue):
+            value = self._occupant(value, expected, node, state)
+            if isinstance(value, Poison):
+                return POISON
+        if not isinstance(value, ObjectValue):
+            return self._wrong(value, expected, node)
+        return value if self._has_roles(value, expected, node) else POISON
+
+    def _occupant(self, place: PlaceValue, expected: Expectation, node: Expression, state: State) -> Val:
+        if place.owner.registered is None:
+            return POISON
+        name = state.occupant(place.ref)
+        if name is not None:
+            return ObjectValue(name, self._registry.objects.get(name))
+        shown = show_place(place.ref)
+        self._reporter.report(
+            "XEI0311",
+            f"nothing is known to stand in `{shown}`, but {expected.what} takes {expected.noun}",
+            node.span,
+            "a place stands for the object in it, and this one is empty",
+            notes=self._rule(expected),
+            help=(f"if something stands there, say so: `given at(...) == {shown}`",),
+        )
+        return POISON
+
+    def _has_roles(self, value: ObjectValue, expected: Expectation, node: Expression) -> bool:
+        if expected.roles is None:
+            return True
+        misfit = first_misfit(value, expected.roles, self._registry)
+        if misfit is None:
+            return True
+        reason = unmet(expected.roles, misfit.roles)
+        bound = f"`{value.name}`" if misfit is value.registered else f"`{value.name}`, which may be `{misfit.name}`,"
+        fitting = candidates(expected.roles, self._registry)
+        self._reporter.report(
+            "XEI0309",
+            f"{bound} {reason}, but {expected.what} takes {expected.noun} that is `{text(expected.roles)}`",
+            node.span,
+            f"`{misfit.name}` has the roles {', '.join(misfit.roles) or 'none'}",
+            notes=self._rule(expected),
+            help=(f"registered objects that would do: {listed(fitting)}",)
+            if fitting
+            else ("no registered object would do",),
+        )
+        return False
+
+    def _place(self, value: Val, expected: Expectation, node: Expression) -> Val:
+        if isinstance(value, PlaceValue):
+            return value
+        if not isinstance(value, ObjectValue):
+            return self._wrong(value, expected, node)
+        if expected.roles is None:
+            return self._places.surface(value, expected, node)
+        return PlaceValue(value, "surface", "") if self._has_roles(value, expected, node) else POISON
+
+    def _arm(self, value: Val, expected: Expectation, node: Expression) -> Val:
+        if isinstance(value, Word) and value.text in (*self._registry.arms, ANY_ARM):
+            return value
+        return self._wrong(value, expected, node)
+
+    def _choice(self, value: Val, expected: Expectation, node: Expression) -> Val:
+        word = value if isinstance(value, (Word, str)) else None
+        chosen = word.text if isinstance(word, Word) else word
+        return Word(chosen) if chosen in expected.choices else self._wrong(value, expected, node)
+
+    def _wrong(self, value: Val, expected: Expectation, node: Expression) -> Val:
+        quoted = isinstance(node, StringLit) and isinstance(value, str) and expected.type != "String"
+        name = value if quoted and str(value) in self._registry.objects else None
+        self._reporter.report(
+            "XEI0305",
+            f"`{show(value)}` is {kind(value)}, but {expected.what} takes {expected.noun}",
+            node.span,
+            f"expected {expected.noun}, found {kind(value)}",
+            notes=self._rule(expected),
+            help=(f"write the object's name without quotes: `{name}`",) if name else (),
+            fix=replace(node.span, str(name)) if name else None,
+        )
+        return POISON
+
+    def _rule(self, expected: Expectation) -> tuple[str, ...]:
+        return (self._reporter.rule(expected.rule),) if expected.rule else ()
+
+
+_CONFUSED_UNITS = ("g", "xg"), ("m", "min"), ("degC", "K"), ("mm", "mL"), ("mM", "mL"), ("mL", "mM"), ("mm", "mM")
+_MORE_CONFUSED = ("mM", "mm"), ("mL", "mm"), ("uM", "uL"), ("um", "uL"), ("uL", "uM"), ("M", "min"), ("K", "degC")
+
+
+def _mended_unit(node: Expression, dimensions: tuple[Dimension, ...]) -> str | None:
+    """The literal with the unit that a hand writes for the one that is needed; None where there is no such unit."""
+    if not isinstance(node, QuantityLit):
+        return None
+    for written, better in (*_CONFUSED_UNITS, *_MORE_CONFUSED):
+        if node.value.unit == written and UNITS[better].dimension in dimensions:
+            return str(quantity(node.value.magnitude, better))
+    return None
+
+
+def _applicability(node: Expression) -> str:
+    return "safe" if isinstance(node, QuantityLit) and node.value.unit == "g" else "unsafe"

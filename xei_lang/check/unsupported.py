@@ -1,0 +1,66 @@
+"""Constructs of the language that this version reads but does not compile: each refused at its keyword, by its name."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from xei_lang.check.functions import not_yet
+from xei_lang.check.paths import blocks
+from xei_lang.check.plan_builder import Where
+from xei_lang.check.report import Reporter
+from xei_lang.check.scope import Scope
+from xei_lang.check.values import POISON
+from xei_lang.diagnostics import Span
+from xei_lang.syntax.ast import (
+    Action,
+    Await,
+    Import,
+    ImportTable,
+    Keep,
+    Leave,
+    Measure,
+    Parallel,
+    Pause,
+    Require,
+    Start,
+    Step,
+    Stop,
+    StopRun,
+)
+
+if TYPE_CHECKING:
+    from xei_lang.check.expand import Expander
+
+_WORDS: Mapping[type, tuple[str, str]] = {
+    Parallel: ("parallel", "`parallel`, branches that may overlap,"),
+    Start: ("start", "`start`, an instrument that works on its own,"),
+    Await: ("await", "`await`, joining an instrument,"),
+    Stop: ("stop", "`stop`, ending an instrument's work,"),
+    StopRun: ("stop", "`stop` with a message, ending the run,"),
+    Leave: ("leave", "`leave`, an instrument that outlives the protocol,"),
+    Pause: ("pause", "`pause`, opening an instrument at work,"),
+    Keep: ("keep", "`keep`, a condition that holds throughout a block,"),
+    Measure: ("measure", "`measure`, a value known only when it runs,"),
+    Require: ("require", "`require`, a condition on the state,"),
+    Import: ("import", "`import` of procedures"),
+    ImportTable: ("import", "`import table`"),
+}
+
+
+def refuse(reporter: Reporter, node: Action | Require | Import | ImportTable) -> None:
+    """Report a construct at its keyword."""
+    word, shown = _WORDS[type(node)]
+    not_yet(reporter, shown, Span(node.span.file, node.span.start, node.span.start + len(word)))
+
+
+def look_inside(expander: Expander, step: Step, scope: Scope, where: Where) -> None:
+    """Check what a refused construct holds, for the mistakes in it, and declare what it names."""
+    action = step.action
+    if isinstance(action, Start | Measure):
+        context = expander.context
+        context.calls.check(action.call, scope, expander.state, tuple(context.procedures))
+    if isinstance(action, Measure):
+        scope.declare(action.name, "measurement", POISON, expander.context.reporter)
+    for block in blocks(action):
+        expander.named_block(step, block, scope, where)

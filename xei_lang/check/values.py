@@ -1,0 +1,190 @@
+"""What an expression can be worth while a protocol is checked.
+
+Everything is decided here and now, but for two kinds: an `Interval` (a ranged parameter that is still open) and
+`POISON` (something wrong that was reported already, or open without bounds), which fits everywhere and says nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+from fractions import Fraction
+from typing import Final, Literal
+
+from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, StationRef, Value
+from xei_lang.profiles.model import LabObject
+from xei_lang.quantity import Quantity
+from xei_lang.quantity.dimension import NUMBER
+from xei_lang.quantity.text import format_magnitude
+from xei_lang.syntax.ast import TypeExpr
+
+
+class Poison(Enum):
+    """The type of `POISON`, an enumeration of one so that `is POISON` narrows types."""
+
+    POISON = "poison"
+
+
+POISON: Final = Poison.POISON
+
+Numeric = Quantity | int | Fraction
+
+
+@dataclass(frozen=True, slots=True)
+class Interval:
+    """A value of which only the bounds are known, ends included; `nominal` stands for it where one is needed."""
+
+    lower: Numeric
+    upper: Numeric
+    nominal: Numeric
+
+
+@dataclass(frozen=True, slots=True)
+class ObjectValue:
+    """A registered object; or, with `registered=None`, any object that has the declared roles."""
+
+    name: str
+    registered: LabObject | None
+    declared: TypeExpr | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class PlaceValue:
+    """A place of an object; what stands in it is asked of the state, where an object is needed."""
+
+    owner: ObjectValue
+    kind: Literal["slot", "spot", "surface"]
+    key: str
+
+    @property
+    def ref(self) -> PlaceRef:
+        """The place as the plan names it."""
+        return PlaceRef(self.owner.name, self.kind, self.key)
+
+
+@dataclass(frozen=True, slots=True)
+class Word:
+    """A word of an enumeration: an arm, a value of a declared state, a choice of a skill."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class ListValue:
+    """A list; a range of a million numbers is one without its members being made."""
+
+    items: Sequence[Val]
+
+
+Val = (
+    Quantity
+    | int
+    | Fraction
+    | bool
+    | str
+    | Word
+    | ObjectValue
+    | PlaceValue
+    | StationRef
+    | ListValue
+    | Interval
+    | Poison
+)
+
+
+def number(value: int | Fraction | Quantity) -> Numeric:
+    """The simplest form of a number: a whole one is an int, a quantity without unit no quantity."""
+    if isinstance(value, Quantity):
+        return number(value.value) if value.dimension == NUMBER and not value.unit else value
+    return int(value) if value.denominator == 1 else value
+
+
+def show(value: Val) -> str:
+    """A value as it would be written in a protocol."""
+    match value:
+        case bool():
+            return "true" if value else "false"
+        case int() | Fraction():
+            return format_magnitude(Fraction(value))
+        case str():
+            return f'"{value}"'
+        case Word():
+            return value.text
+        case ObjectValue() | StationRef():
+            return value.name
+        case PlaceValue():
+            return show_place(value.ref)
+        case ListValue():
+            return f"a list of {len(value.items)}"
+        case Interval():
+            return f"{show(value.lower)} .. {show(value.upper)}"
+        case Poison():
+            return "?"
+        case Quantity():
+            return str(value)
+
+
+def show_place(place: PlaceRef) -> str:
+    """A place as it is written: `rack_1.slot("A1")`."""
+    return f'{place.object}.{place.kind}("{place.key}")' if place.key else place.object
+
+
+def kind(value: Val) -> str:
+    """What sort of value it is, with its article, for messages."""
+    match value:
+        case bool():
+            return "a Bool"
+        case int():
+            return "a number"
+        case Fraction():
+            return "a number"
+        case str():
+            return "a String"
+        case Word():
+            return "a word"
+        case ObjectValue():
+            return "an object"
+        case PlaceValue():
+            return "a place"
+        case StationRef():
+            return "a station"
+        case ListValue():
+            return "a list"
+        case Interval():
+            return kind(value.lower)
+        case Poison():
+            return "unknown"
+        case Quantity():
+            return a(value.dimension.name)
+
+
+def a(noun: str) -> str:
+    """The noun with its indefinite article."""
+    return f"{'an' if noun[:1] in 'AEIOaeio' else 'a'} {noun}"
+
+
+def nominal(value: Val) -> Val:
+    """The one value that stands for an open one, every other value being itself."""
+    return value.nominal if isinstance(value, Interval) else value
+
+
+def to_plan(value: Val) -> Value:
+    """A checked value as the plan keeps it; an interval is its nominal value, poison an empty text."""
+    match value:
+        case Word():
+            return value.text
+        case ObjectValue():
+            return ObjectRef(value.name)
+        case PlaceValue():
+            return value.ref
+        case Fraction():
+            return float(value)
+        case ListValue():
+            return tuple(to_plan(item) for item in value.items)
+        case Interval():
+            return to_plan(value.nominal)
+        case Poison():
+            return ""
+        case _:
+            return value
