@@ -8,9 +8,10 @@ from __future__ import annotations
 from xei_lang.diagnostics import Diagnostic, Diagnostics
 from xei_lang.ir.geometry import Pose
 from xei_lang.ir.world import World, WorldObject
+from xei_lang.profiles.grid import T_frame_object
 from xei_lang.profiles.model import LabObject, Profile
 from xei_lang.world.frames import frame_tree, start_state
-from xei_lang.world.places import T_object_standing, initial_place, place_text
+from xei_lang.world.places import initial_place, place_text
 
 SOURCES = ("usage_profile", "object_registry")
 
@@ -21,34 +22,16 @@ def ground(profile: Profile) -> tuple[World | None, Diagnostics]:
     found: list[Diagnostic] = []
     objects: list[WorldObject] = []
     for item in profile.objects:
-        if item.prior is None:
+        placed = T_frame_object(profile, item)
+        if placed is None:
             found.append(_unplaced(item))
         else:
-            objects.append(_grounded(profile, item))
+            objects.append(_grounded(item, *placed))
     objects.sort(key=lambda item: item.name)
     return World(frame_tree(profile, state), tuple(objects), state, SOURCES), tuple(found)
 
 
-def T_frame_object(profile: Profile, item: LabObject) -> tuple[str, Pose]:
-    """The frame in which the object's prior ends and its pose there, through all objects that it stands in.
-
-    Loading has made sure that every object on the way has a prior and that the way has no circle.
-    """
-    prior = item.prior
-    place = initial_place(item)
-    assert prior is not None
-    if place is None:
-        return prior.frame, prior.T_frame_object
-    holder = profile.object(place.object)
-    assert holder is not None
-    T_holder_item = T_object_standing(holder, place)
-    assert T_holder_item is not None
-    frame, T_frame_holder = T_frame_object(profile, holder)
-    return frame, T_frame_holder @ T_holder_item @ prior.T_frame_object
-
-
-def _grounded(profile: Profile, item: LabObject) -> WorldObject:
-    frame, pose = T_frame_object(profile, item)
+def _grounded(item: LabObject, frame: str, pose: Pose) -> WorldObject:
     place = initial_place(item)
     source = SOURCES[1] if item.system else SOURCES[0]
     fields = ("pose", "confidence", "roles", "size", "geometry", "mass", "states")

@@ -6,9 +6,10 @@ Pure Python, because name checking needs it before anything heavy is loaded.
 from __future__ import annotations
 
 from xei_lang.diagnostics import did_you_mean
-from xei_lang.ir.geometry import Pose, Vec3
+from xei_lang.ir.geometry import Pose
 from xei_lang.ir.skill_plan import PlaceRef
-from xei_lang.profiles.model import LabObject, Profile, SlotGrid
+from xei_lang.profiles import grid as grids
+from xei_lang.profiles.model import LabObject, Profile
 
 
 def place_text(place: PlaceRef) -> str:
@@ -18,10 +19,7 @@ def place_text(place: PlaceRef) -> str:
 
 def slots(item: LabObject) -> tuple[PlaceRef, ...]:
     """All slots, row by row: A1 A2 ... B1 B2 ...; empty where the object has none."""
-    grid = item.slots
-    if grid is None:
-        return ()
-    return tuple(_slot(item, f"{row_name}{j}") for row_name in grid.rows for j in range(1, grid.columns + 1))
+    return tuple(_slot(item, key) for key in grids.slot_keys(item.slots)) if item.slots else ()
 
 
 def row(item: LabObject, name: str) -> tuple[PlaceRef, ...]:
@@ -48,7 +46,7 @@ def spots(item: LabObject) -> tuple[PlaceRef, ...]:
 def has_place(item: LabObject, place: PlaceRef) -> bool:
     """Whether the object has this place; every object with the role `surface` or `place_target` has its surface."""
     if place.kind == "slot":
-        return item.slots is not None and _cell(item.slots, place.key) is not None
+        return item.slots is not None and grids.slot_cell(item.slots, place.key) is not None
     if place.kind == "spot":
         return any(spot.name == place.key for spot in item.spots)
     return "surface" in item.roles or "place_target" in item.roles
@@ -65,11 +63,9 @@ def T_object_place(item: LabObject, place: PlaceRef) -> Pose | None:
 
     None for a whole surface, which is no single pose, and for a place that the object does not have.
     """
-    if place.kind == "slot" and item.slots is not None:
-        return _mouth(item, item.slots, place.key)
-    if place.kind == "spot":
-        return next((spot.T_object_spot for spot in item.spots if spot.name == place.key), None)
-    return None
+    if place.kind == "slot":
+        return grids.T_object_slot(item, place.key)
+    return grids.T_object_spot(item, place.key) if place.kind == "spot" else None
 
 
 def T_object_standing(item: LabObject, place: PlaceRef) -> Pose | None:
@@ -77,10 +73,7 @@ def T_object_standing(item: LabObject, place: PlaceRef) -> Pose | None:
 
     In a slot that is the floor of the slot, `depth_m` below its mouth on its axis.
     """
-    T_place = T_object_place(item, place)
-    if T_place is None or place.kind != "slot" or item.slots is None:
-        return T_place
-    return T_place @ Pose((0.0, 0.0, -item.slots.depth_m))
+    return None if place.kind == "surface" else grids.T_object_standing(item, place.kind, place.key)
 
 
 def initial_place(item: LabObject) -> PlaceRef | None:
@@ -105,23 +98,3 @@ def accepts(item: LabObject, place: PlaceRef, roles: tuple[str, ...]) -> bool:
 
 def _slot(item: LabObject, key: str) -> PlaceRef:
     return PlaceRef(item.name, "slot", key)
-
-
-def _cell(grid: SlotGrid, key: str) -> tuple[int, int] | None:
-    """Row and column from 0 of a key such as `A1`."""
-    for index, name in enumerate(grid.rows):
-        number = key.removeprefix(name)
-        if key.startswith(name) and number.isascii() and number.isdigit() and number[0] != "0":
-            if int(number) <= grid.columns:
-                return index, int(number) - 1
-    return None
-
-
-def _mouth(item: LabObject, grid: SlotGrid, key: str) -> Pose | None:
-    cell = _cell(grid, key)
-    if cell is None:
-        return None
-    i, j = cell
-    corner: Vec3 = (-item.size_m[0] / 2, -item.size_m[1] / 2, 0.0)
-    x, y, z = grid.origin_m
-    return Pose((corner[0] + x + j * grid.pitch_m[0], corner[1] + y + i * grid.pitch_m[1], z))

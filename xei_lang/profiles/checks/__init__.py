@@ -1,11 +1,26 @@
-"""What no single file of a profile can be judged by: names across files, and geometry. One concern a file."""
+"""What no single file of a profile can be judged by: names across files, templates, geometry. One concern a file."""
 
 from __future__ import annotations
 
-from xei_lang.diagnostics import Diagnostics
+from xei_lang.diagnostics import Diagnostics, has_errors
+from xei_lang.profiles.checks.frames import check_frames
+from xei_lang.profiles.checks.geometry import check_geometry
+from xei_lang.profiles.checks.limits import check_limits
+from xei_lang.profiles.checks.names import check_names
+from xei_lang.profiles.checks.overlap import check_overlap
+from xei_lang.profiles.checks.priors import check_priors
+from xei_lang.profiles.checks.skills import check_skills
 from xei_lang.profiles.model import Profile
 
 
 def check_profile(profile: Profile) -> Diagnostics:
-    """All cross checks of a profile, in a fixed order."""
-    return ()
+    """All cross checks of a profile, in a fixed order; whether objects overlap only where all have a place."""
+    found = (
+        *check_names(profile),
+        *check_skills(profile),
+        *check_frames(profile),
+        *check_limits(profile),
+        *check_priors(profile),
+        *check_geometry(profile),
+    )
+    return found if has_errors(found) else (*found, *check_overlap(profile))

@@ -1,0 +1,113 @@
+"""Objects whose priors put them into each other.
+
+Boxes and cylinders that stand upright are tested exactly in the plane; parts that are tilted are left to the collision
+checks of motion. An object may overlap what it stands in.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from xei_lang.diagnostics import Diagnostic, Label
+from xei_lang.ir.geometry import Box, Cylinder
+from xei_lang.profiles.grid import T_frame_object, T_world_frame, prior_chain
+from xei_lang.profiles.model import LabObject, Profile
+
+TOUCH_M = 1e-4
+"""Parts that share less than this along some direction count as touching."""
+
+
+@dataclass(frozen=True, slots=True)
+class Upright:
+    """A solid that stands upright in `world`: a footprint (a disc, or a rectangle turned by `yaw_rad`) over a range of z."""
+
+    x_m: float
+    y_m: float
+    lower_m: float
+    upper_m: float
+    yaw_rad: float
+    half_m: tuple[float, float]
+    radius_m: float
+
+
+def check_overlap(profile: Profile) -> Iterator[Diagnostic]:
+    """Pairs of objects that stand in each other, each pair once."""
+    solids = [(item, _solids(profile, item)) for item in profile.objects]
+    for index, (first, parts) in enumerate(solids):
+        for second, others in solids[index + 1 :]:
+            if second in prior_chain(profile, first) or first in prior_chain(profile, second):
+                continue
+            depth = max((overlap_m(a, b) for a in parts for b in others), default=0.0)
+            if depth > TOUCH_M:
+                yield _diagnostic(first, second, depth)
+
+
+def _diagnostic(first: LabObject, second: LabObject, depth_m: float) -> Diagnostic:
+    mover, other = (second, first) if first.system else (first, second)
+    span = mover.prior.span if mover.prior else mover.span
+    other_span = other.prior.span if other.prior else other.span
+    return Diagnostic(
+        "XEI0642", f"`{mover.name}` and `{other.name}` stand in each other", span,
+        label=f"overlaps by {round(depth_m * 1000, 1):g} mm", labels=(Label(other_span, f"`{other.name}` stands here"),),
+        help=(f"move one of the two, or correct its size",),
+    )  # fmt: skip
+
+
+def _solids(profile: Profile, item: LabObject) -> tuple[Upright, ...]:
+    placed = T_frame_object(profile, item)
+    T_world_frame_ = T_world_frame(profile, placed[0]) if placed else None
+    if placed is None or T_world_frame_ is None:
+        return ()
+    found: list[Upright] = []
+    for part in item.geometry:
+        pose = T_world_frame_ @ placed[1] @ part.T_object_shape
+        x_axis, _, z_axis = pose.axes()
+        shape = part.shape
+        if z_axis[2] < 1.0 - 1e-9 or not isinstance(shape, (Box, Cylinder)):
+            continue
+        x, y, z = pose.position_m
+        height = shape.size_m[2] if isinstance(shape, Box) else shape.height_m
+        half = (shape.size_m[0] / 2, shape.size_m[1] / 2) if isinstance(shape, Box) else (0.0, 0.0)
+        radius = shape.radius_m if isinstance(shape, Cylinder) else 0.0
+        found.append(Upright(x, y, z - height / 2, z + height / 2, math.atan2(x_axis[1], x_axis[0]), half, radius))
+    return tuple(found)
+
+
+def overlap_m(a: Upright, b: Upright) -> float:
+    """How deep two upright solids stand in each other, along the best direction to part them; at most 0 where apart.
+
+    A disc is a rectangle of zero size with a rounding radius. Footprints are parted along the rectangles' axes and, for
+    a disc, also along the direction from the other footprint's nearest point (the separating axis theorem).
+    """
+    vertical = min(a.upper_m, b.upper_m) - max(a.lower_m, b.lower_m)
+    axes = [(math.cos(yaw), math.sin(yaw)) for solid in (a, b) for yaw in (solid.yaw_rad, solid.yaw_rad + math.pi / 2)]
+    for disc, other in ((a, b), (b, a)):
+        if disc.radius_m > 0.0:
+            near = _nearest(other, disc.x_m, disc.y_m)
+            dx, dy = disc.x_m - near[0], disc.y_m - near[1]
+            length = math.hypot(dx, dy)
+            if length > 0.0:
+                axes.append((dx / length, dy / length))
+    return min(vertical, *(_along(a, b, axis) for axis in axes))
+
+
+def _along(a: Upright, b: Upright, axis: tuple[float, float]) -> float:
+    apart = abs((b.x_m - a.x_m) * axis[0] + (b.y_m - a.y_m) * axis[1])
+    return _reach(a, axis) + _reach(b, axis) - apart
+
+
+def _reach(solid: Upright, axis: tuple[float, float]) -> float:
+    c, s = math.cos(solid.yaw_rad), math.sin(solid.yaw_rad)
+    along_x, along_y = abs(axis[0] * c + axis[1] * s), abs(axis[1] * c - axis[0] * s)
+    return solid.half_m[0] * along_x + solid.half_m[1] * along_y + solid.radius_m
+
+
+def _nearest(solid: Upright, x: float, y: float) -> tuple[float, float]:
+    """The point of the rectangle (for a disc: its centre) that is nearest to a point."""
+    c, s = math.cos(solid.yaw_rad), math.sin(solid.yaw_rad)
+    dx, dy = x - solid.x_m, y - solid.y_m
+    u = max(-solid.half_m[0], min(solid.half_m[0], dx * c + dy * s))
+    v = max(-solid.half_m[1], min(solid.half_m[1], dy * c - dx * s))
+    return solid.x_m + u * c - v * s, solid.y_m + u * s + v * c

@@ -1,0 +1,120 @@
+"""The skill bank against itself and the lab: owners, roles, contracts, phrases and templates."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from types import MappingProxyType
+from typing import get_args
+
+from xei_lang.diagnostics import Diagnostic, Span
+from xei_lang.ir.goals import GoalKind, PathKind
+from xei_lang.profiles.checks.names import OPERATION_PARAMETERS
+from xei_lang.profiles.checks.unknown import unknown
+from xei_lang.profiles.model import Profile, SkillSpec, TemplateStep
+from xei_lang.syntax import ast
+
+POINTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {"object": ("pregrasp", "grasp", "lift"), "Place": ("above", "place", "retreat"), "Station": ("ground_frame",)}
+)
+"""Points of an operation, by the type of the argument that they belong to."""
+
+FIELDS: Mapping[GoalKind, tuple[tuple[str, ...], tuple[str, ...]]] = MappingProxyType(
+    {
+        "move_to": ((), ("tool", "at", "path", "keep", "speed", "configuration")),
+        "open_gripper": (("arm", "width"), ()),
+        "close_gripper": (("arm", "width"), ()),
+        "attach": (("object", "arm"), ()),
+        "detach": (("object", "arm", "at"), ()),
+        "slide_move": (("height",), ()),
+        "nav_to_pose": (("station",), ()),
+        "perceive": (("frame",), ()),
+        "set_do": (("output", "value"), ()),
+        "wait": (("for",), ()),
+        "confirm": (("text",), ()),
+        "instrument": (("instrument", "command"), ()),
+    }
+)
+"""Fields that a goal of a template must have, and those that it may have."""
+
+
+def check_skills(profile: Profile) -> Iterator[Diagnostic]:
+    """Every skill: its owner, the roles that it asks for, the names in its contract, phrases and template."""
+    roles = sorted({role for item in profile.objects for role in item.roles})
+    for skill in profile.bank.skills:
+        if skill.owner not in profile.bank.owners:
+            yield unknown("an owner", skill.owner, profile.bank.owners, skill.span)
+        for arg in skill.args:
+            names = [node for node in ast.walk(arg.roles) if isinstance(node, ast.Role)] if arg.roles else []
+            yield from (unknown("a role of any object", role.id, roles, role.span, "XEI0625") for role in names if role.id not in roles)
+        yield from _contract(skill)
+        yield from _phrases(skill)
+        for step in skill.template:
+            yield from _step(profile, skill, step)
+
+
+def _contract(skill: SkillSpec) -> Iterator[Diagnostic]:
+    names = [arg.name for arg in skill.args]
+    for rule in (*skill.requires, *skill.ensures):
+        for node in ast.walk(rule.predicate):
+            if isinstance(node, ast.CallExpr):
+                subjects = [arg.value for arg in node.args if isinstance(arg.value, ast.Name)]
+                yield from (_no_argument(skill, name.id, names, name.span) for name in subjects if name.id not in names)
+
+
+def _phrases(skill: SkillSpec) -> Iterator[Diagnostic]:
+    names = [arg.name for arg in skill.args]
+    for phrase in skill.phrases:
+        for name in re.findall(r"\{([^{}]*)\}", phrase):
+            if name not in names:
+                yield _no_argument(skill, name, names, skill.span)
+
+
+def _step(profile: Profile, skill: SkillSpec, step: TemplateStep) -> Iterator[Diagnostic]:
+    required, optional = FIELDS[step.kind]
+    given = [name for name, _ in step.fields]
+    for name in given:
+        if name not in (*required, *optional):
+            yield unknown(f"a field of `{step.kind}`", name, (*required, *optional), step.span, "XEI0623")
+    for name in required:
+        if name not in given:
+            yield Diagnostic("XEI0623", f"`{step.kind}` in the template of `{skill.name}` has no `{name}`", step.span,
+                             label=f"expected `{name}`", help=(f"add `{name}: ...`",))  # fmt: skip
+    if step.kind == "move_to" and ("configuration" in given) == ("at" in given):
+        yield Diagnostic("XEI0623", f"`move_to` in the template of `{skill.name}` needs one target", step.span,
+                         label="expected `at` with `tool`, or `configuration`")  # fmt: skip
+    for name, value in step.fields:
+        if isinstance(value, str):
+            yield from _value(profile, skill, step, name, value)
+
+
+def _value(profile: Profile, skill: SkillSpec, step: TemplateStep, field: str, value: str) -> Iterator[Diagnostic]:
+    """Whether a word of a template names what its field takes."""
+    args = {arg.name: arg.type for arg in skill.args}
+    states = sorted({state.name for state in profile.robot.states})
+    of_type = {kind: [name for name, type_ in args.items() if type_ == kind] for kind in ("Arm", "object", "Place", "Station")}
+    known: list[str] | None = {
+        "tool": [*of_type["Arm"], *profile.bank.arms],
+        "arm": [*of_type["Arm"], *profile.bank.arms],
+        "object": of_type["object"],
+        "station": [*of_type["Station"], *(station.name for station in profile.calibration.stations)],
+        "path": list(get_args(PathKind)),
+        "keep": ["upright"],
+        "configuration": states,
+        "output": list(args),
+        "value": list(args),
+    }.get(field)
+    if field in ("speed", "width", "height", "for"):
+        known = [*args, *OPERATION_PARAMETERS, *(item.name for item in skill.parameters)]
+    elif field == "at" and step.kind == "detach":
+        known = of_type["Place"]
+    elif field in ("at", "frame"):
+        frames = [frame.name for frame in profile.calibration.frames]
+        known = [f"{name}.{point}" for name, type_ in args.items() for point in POINTS.get(type_, ())]
+        known += frames if field == "frame" else []
+    if known is not None and value not in known:
+        yield unknown(f"a `{field}` that the template of `{skill.name}` can use", value, known, step.span, "XEI0623")
+
+
+def _no_argument(skill: SkillSpec, name: str, names: list[str], span: Span) -> Diagnostic:
+    return unknown(f"an argument of `{skill.name}`", name, names, span, "XEI0623")
