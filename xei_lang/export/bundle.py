@@ -27,8 +27,8 @@ _NO_SPACE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 def write_bundle(directory: Path, contents: Mapping[str, Content], manifest: Manifest) -> Diagnostics:
     """Write the contents, by relative path, and their manifest; replaces an older bundle at the same place.
 
-    Files are written and synced in a hidden folder beside the target, which is then renamed. Whatever stops this,
-    an interrupt included, leaves the target as it was. A file, or a folder of anything else, is never replaced.
+    Files are written and synced in a hidden folder beside the target, which is then renamed. Whatever stops
+    this, an interrupt included, leaves the target as it was. A folder of anything else is never replaced.
     """
     try:
         target = Path(os.path.realpath(directory))

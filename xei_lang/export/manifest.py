@@ -41,7 +41,7 @@ class Manifest:
     blockers: tuple[Blocker, ...]
 
     def to_json(self, files: Mapping[str, str]) -> dict[str, Json]:
-        """The manifest with the SHA-256 of each file of the bundle; nothing here depends on clock or machine."""
+        """The manifest with the SHA-256 of each file of the bundle; no clock and no absolute path in it."""
         return {
             "format": FORMAT,
             "version": VERSION,

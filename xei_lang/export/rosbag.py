@@ -1,8 +1,9 @@
 """A rosbag2 with MCAP storage of a timed plan, for ROS 2 Humble.
 
-Topics: `/xei/plan` (std_msgs/String, the skill plan as JSON), `/joint_states` (sensor_msgs/JointState, 100 Hz,
-every joint of the plan) and, for each goal and each controller that it needs, a trajectory_msgs/JointTrajectory
-on `/<controller>/joint_trajectory`. Stamps count from a fixed instant, so that a plan always gives the same bytes.
+Topics: `/xei/plan` (std_msgs/String, the skill plan as JSON), `/joint_states` (sensor_msgs/JointState,
+100 Hz, every joint of the plan) and, for each goal and each controller that it needs, a
+trajectory_msgs/JointTrajectory on `/<controller>/joint_trajectory`. Stamps count from a fixed instant, so
+that a plan always gives the same bytes.
 """
 
 from __future__ import annotations
@@ -50,7 +51,7 @@ def write_rosbag(path: Path, timed: TimedPlan, plan_json: str) -> None:
 
 
 def controller(joint: str) -> str:
-    """The controller of a joint: as in openarm_bringup for arms and grippers, by the joint's name elsewhere."""
+    """The controller of a joint: as in openarm_bringup for arms and grippers, by its name elsewhere."""
     arm, finger = _ARM.fullmatch(joint), _FINGER.fullmatch(joint)
     if arm:
         return f"{arm[1]}_joint_trajectory_controller"
