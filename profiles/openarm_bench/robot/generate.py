@@ -190,15 +190,16 @@ def pairs(figures: Figures) -> list[str]:
     lines: list[str] = []
     for entry in figures["disabled_pairs"]:
         named = [tuple(pair) for pair in entry.get("fixed", [])]
-        for side in SIDES:
-            named += [(side_link(side, a), side_link(side, b)) for a, b in entry.get("side", [])]
+        named += [(side_link(side, a), side_link(side, b)) for side in SIDES for a, b in entry.get("side", [])]
         for a, b in named:
             lines.append(f'  <disable_collisions link1="{a}" link2="{b}" reason="{entry["reason"]}"/>')
     return lines
 
 
 def side_link(side: str, name: str) -> str:
-    return "openarm_body_link0" if name == "body_link0" else f"openarm_{side}_{name}"
+    if name == "body_link0":
+        return "openarm_body_link0"
+    return name if name in ("base_link", "slide_column", "slide_carriage") else f"openarm_{side}_{name}"
 
 
 def srdf(figures: Figures) -> str:
