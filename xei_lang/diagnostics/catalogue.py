@@ -113,6 +113,13 @@ _ENTRIES = {
     "XEI0714": Entry("an object that is too wide for a slot"),
     "XEI0715": Entry("a robot that starts at no known station"),
     # 08xx motion
+    "XEI0801": Entry("an object or a place that is out of reach"),
+    "XEI0802": Entry("a place that no grasp reaches without touching something"),
+    "XEI0803": Entry("a path that is blocked"),
+    "XEI0804": Entry("a path that no timing can follow"),
+    "XEI0805": Entry("a slide height outside the slide's stroke"),
+    "XEI0806": Entry("a move that motion planning does not know"),
+    "XEI0807": Entry("a configuration outside the joints' range"),
     "XEI0850": Entry("a timed plan is not well formed"),
     "XEI0851": Entry("a number in a timed plan is not finite"),
     "XEI0852": Entry("a timed plan does other goals than were asked for"),

@@ -1,0 +1,112 @@
+"""From goals to a timed plan: the entry to motion planning.
+
+The goal sequence is cut at its fixed anchors; between them configurations are chosen together (`sequence/group.py`), then every
+path is put on a clock (`sequence/assemble.py`). Everything is a pure function of the arguments: searches stop on counts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from xei_lang.diagnostics import Diagnostic, Diagnostics
+from xei_lang.ir.goals import MotionGoal, MotionGoalGraph
+from xei_lang.ir.timed import TimedGoal, TimedPlan
+from xei_lang.ir.world import World
+from xei_lang.motion.collision import collision_scene
+from xei_lang.motion.kinematics import arm_solver
+from xei_lang.motion.paths.free import PathBlocked
+from xei_lang.motion.robot import Robot, load_robot
+from xei_lang.motion.sequence.ahead import look_ahead
+from xei_lang.motion.sequence.assemble import RATE_HZ, Untimed, time_motion
+from xei_lang.motion.sequence.blame import blame_group, blame_path, blame_timing, refuse
+from xei_lang.motion.sequence.context import Context, planning_limits
+from xei_lang.motion.sequence.fixed import plan_fixed
+from xei_lang.motion.sequence.group import plan_group
+from xei_lang.motion.sequence.margins import margins
+from xei_lang.motion.sequence.motions import Motion
+from xei_lang.motion.sequence.sections import Group, Part, split
+from xei_lang.motion.sequence.snapshot import Snapshot, first_snapshot
+from xei_lang.profiles.model import Profile
+
+Progress = Callable[[int, int], None]
+"""Called with how many goals are planned and how many there are."""
+
+
+@dataclass(frozen=True, slots=True)
+class RobotDescription:
+    """The texts of the robot's URDF and SRDF."""
+
+    urdf_text: str
+    srdf_text: str
+
+
+def plan_motion(
+    graph: MotionGoalGraph,
+    world: World,
+    profile: Profile,
+    description: RobotDescription,
+    seed: int,
+    progress: Progress | None = None,
+) -> tuple[TimedPlan | None, Diagnostics]:
+    """Plan and time every goal of the graph, starting from the world's robot state.
+
+    Returns the plan, or None and what stands in its way, with the goal's place in the protocol. Equal arguments give equal
+    plans, to the byte.
+    """
+    context = _context(world, profile, description, seed)
+    parts = split(graph)
+    start = first_snapshot(context.robot, world)
+    problem = refuse(context, graph)
+    if problem is not None:
+        return None, (problem,)
+    now, timed = start, list[TimedGoal]()
+    loads: list[Motion] = []
+    for index, part in enumerate(parts):
+        motions = _plan_part(context, part, parts[index + 1 :], now)
+        if isinstance(motions, Diagnostic):
+            return None, (motions,)
+        for motion in motions:
+            goal = time_motion(context, motion, timed[-1].end_s if timed else 0.0)
+            if isinstance(goal, Untimed):
+                return None, (blame_timing(context, goal),)
+            timed.append(goal)
+            loads.append(motion)
+        now = motions[-1].after
+        if progress is not None:
+            progress(len(timed), len(graph.goals))
+    return _plan(context, start, tuple(loads), tuple(timed)), ()
+
+
+def _context(world: World, profile: Profile, description: RobotDescription, seed: int) -> Context:
+    robot = load_robot(description.urdf_text, description.srdf_text)
+    solvers = {side: arm_solver(robot, side) for side in robot.arms}
+    bare = collision_scene(robot, padding_m=profile.calibration.clearance_m)
+    return Context(robot, bare, solvers, planning_limits(robot, profile), world, profile, seed)
+
+
+def _plan_part(
+    context: Context, part: Part, later: tuple[Part, ...], now: Snapshot
+) -> tuple[Motion, ...] | Diagnostic:
+    if isinstance(part, MotionGoal):
+        motion = plan_fixed(context, part, now)
+        return blame_path(context, part, motion) if isinstance(motion, PathBlocked) else (motion,)
+    assert isinstance(part, Group)
+    found = plan_group(context, part, now, look_ahead(context, part, later, now))
+    return found if isinstance(found, tuple) else blame_group(context, found)
+
+
+def _plan(
+    context: Context, start: Snapshot, motions: tuple[Motion, ...], goals: tuple[TimedGoal, ...]
+) -> TimedPlan:
+    robot: Robot = context.robot
+    return TimedPlan(
+        start=tuple(zip(robot.joint_names, start.q.tolist(), strict=True)),
+        limits=tuple(context.limits[name] for name in robot.joint_names if name in context.limits),
+        goals=goals,
+        duration_s=goals[-1].end_s if goals else 0.0,
+        margins=margins(context, motions, goals),
+        seed=context.seed,
+        rate_hz=RATE_HZ,
+        solvers=tuple((side, context.solvers[side].name) for side in sorted(context.solvers)),
+    )

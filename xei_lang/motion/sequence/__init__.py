@@ -1,0 +1,1 @@
+"""From goals to configurations: which grasp, slide height and swivel each manipulation uses, chosen together."""

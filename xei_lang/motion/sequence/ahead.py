@@ -1,0 +1,64 @@
+"""What a group should know of the parts after it: where its arm goes next, and where its hand lets go."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from xei_lang.ir.goals import JointTarget, MotionGoal, MoveTo, NavToPose
+from xei_lang.ir.skill_plan import Side
+from xei_lang.motion.sequence.choose import Array
+from xei_lang.motion.sequence.context import Context
+from xei_lang.motion.sequence.group import Ahead
+from xei_lang.motion.sequence.rehearse import Rehearsal, rehearse_group
+from xei_lang.motion.sequence.sections import Group, Part
+from xei_lang.motion.sequence.snapshot import Snapshot
+
+
+def look_ahead(context: Context, group: Group, later: tuple[Part, ...], start: Snapshot) -> Ahead:
+    """The outlook of a group that begins at `start`, with the parts that follow it in order."""
+    after = rehearse_group(context, group, start)[-1].after
+    return Ahead(_next_configuration(context, group.arm, later), _release(context, group.arm, later, after))
+
+
+def _next_configuration(context: Context, arm: Side, later: tuple[Part, ...]) -> Array | None:
+    target = _named(later[0]) if later else None
+    joints = {} if target is None else dict(target.joints)
+    names = context.robot.arm(arm).joint_names
+    return np.array([joints[name] for name in names]) if all(name in joints for name in names) else None
+
+
+def _release(context: Context, arm: Side, later: tuple[Part, ...], now: Snapshot) -> tuple[Rehearsal, ...]:
+    """The next chain of the arm, where it begins with the object in the hand."""
+    if arm not in now.held:
+        return ()
+    for part in later:
+        if isinstance(part, MotionGoal):
+            now = _passed(context, part, now)
+            continue
+        rehearsals = rehearse_group(context, part, now)
+        if part.arm == arm:
+            return rehearsals[:1]
+        now = rehearsals[-1].after
+    return ()
+
+
+def _passed(context: Context, goal: MotionGoal, now: Snapshot) -> Snapshot:
+    """The snapshot after a fixed goal, as far as it is known beforehand."""
+    action = goal.action
+    if isinstance(action, NavToPose):
+        return replace(now, T_world_base=action.T_world_base)
+    target = _named(goal)
+    if target is None:
+        return now
+    q = now.q.copy()
+    for joint, value in target.joints:
+        q[context.robot.joint_names.index(joint)] = value
+    return now.moved(q)
+
+
+def _named(part: Part) -> JointTarget | None:
+    if isinstance(part, MotionGoal) and isinstance(part.action, MoveTo):
+        return part.action.target if isinstance(part.action.target, JointTarget) else None
+    return None

@@ -1,0 +1,100 @@
+"""Motions put on a clock one after another: TOPP-RA for every path, samples, and the margins that are left."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from xei_lang.ir.geometry import Pose
+from xei_lang.ir.goals import MotionGoal
+from xei_lang.ir.timed import Knots, Samples, TimedGoal
+from xei_lang.motion.robot import Robot
+from xei_lang.motion.sequence.context import Context
+from xei_lang.motion.sequence.motions import Motion
+from xei_lang.motion.sequence.poses import pose_of
+from xei_lang.motion.timing.samples import sample
+from xei_lang.motion.timing.topp import InverseDynamics, TimingFailure, parameterise
+
+Array = NDArray[np.float64]
+
+RATE_HZ = 100.0
+
+
+@dataclass(frozen=True, slots=True)
+class Untimed:
+    """A motion that no speed makes feasible."""
+
+    goal: MotionGoal
+    failure: TimingFailure
+
+
+def time_motion(context: Context, motion: Motion, start_s: float) -> TimedGoal | Untimed:
+    """The goal with its trajectory from `start_s` on, in seconds."""
+    knots: Knots | None = None
+    samples: Samples | None = None
+    duration_s = motion.duration_s
+    joints = () if motion.path is None else motion.path.joints
+    if motion.path is not None:
+        torques = inverse_dynamics(context, motion)
+        found = parameterise(motion.path, context.limits_of(joints), torques, motion.speed_fraction)
+        if isinstance(found, TimingFailure):
+            return Untimed(motion.goal, found)
+        knots = found
+        samples = sample(knots, start_s, RATE_HZ)
+        duration_s = knots.times_s[-1]
+    goal = motion.goal
+    return TimedGoal(
+        id=goal.id,
+        step_id=goal.step_id,
+        kind=goal.kind,
+        resource=goal.resources[0] if goal.resources else "",
+        resources=goal.resources,
+        epoch=goal.epoch,
+        start_s=start_s,
+        end_s=start_s + duration_s,
+        joints=joints,
+        samples=samples,
+        knots=knots,
+        attached=motion.before.attachments(context.robot),
+        allowed_contacts=goal.allowed_contacts,
+        placed=motion.placed,
+        arm=motion.arm,
+        tool=_tool(context.robot, motion),
+        choice=motion.choice,
+        planner=motion.planner,
+    )
+
+
+def _tool(robot: Robot, motion: Motion) -> Pose | None:
+    if motion.arm is None:
+        return None
+    return pose_of(robot.T_base_frame(motion.after.q, robot.arm(motion.arm).tool_frame))
+
+
+def loaded_robot(context: Context, motion: Motion) -> Robot:
+    """The robot with the mass of what its hands hold while the motion runs."""
+    robot = context.robot
+    for side, held in sorted(motion.before.held.items()):
+        item = context.world.find(held.object)
+        if item is not None and item.mass_kg > 0.0:
+            middle = (0.0, 0.0, item.size_m[2] / 2)
+            robot = robot.with_payload(side, item.mass_kg, held.T_tool_object.apply(middle))
+    return robot
+
+
+def inverse_dynamics(context: Context, motion: Motion) -> InverseDynamics:
+    """Torques of the path's joints, every other joint at rest where it stands."""
+    robot = loaded_robot(context, motion)
+    joints = () if motion.path is None else motion.path.joints
+    columns = [robot.joint_names.index(joint) for joint in joints]
+    rest = motion.before.q
+
+    def torques(q: Array, dq: Array, ddq: Array) -> Array:
+        whole = np.tile(rest, (len(q), 1))
+        speed, acceleration = np.zeros_like(whole), np.zeros_like(whole)
+        whole[:, columns], speed[:, columns], acceleration[:, columns] = q, dq, ddq
+        return robot.torques(whole, speed, acceleration)[:, columns]
+
+    return torques

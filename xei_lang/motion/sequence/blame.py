@@ -1,0 +1,256 @@
+"""Why motion planning failed, told at the step that asked for it: which object, which arm, what is in the way, what would help."""
+
+from __future__ import annotations
+
+from xei_lang.diagnostics import Diagnostic
+from xei_lang.ir.goals import (
+    Attach,
+    Detach,
+    JointTarget,
+    MotionGoal,
+    MotionGoalGraph,
+    MoveTo,
+    SlideMove,
+    ToolTarget,
+)
+from xei_lang.motion.paths.free import PathBlocked
+from xei_lang.motion.sequence.assemble import Untimed
+from xei_lang.motion.sequence.census import Census, take_census
+from xei_lang.motion.sequence.context import Context
+from xei_lang.motion.sequence.group import BlockedTransit, Failure, Unplaced
+from xei_lang.motion.sequence.reach import nearest_reach, reach_help
+from xei_lang.motion.sequence.sections import Chain
+
+_SHOWN_BODIES = 4
+
+
+def refuse(context: Context, graph: MotionGoalGraph) -> Diagnostic | None:
+    """What no planning could mend: a slide height or a joint target out of range, a path that has no start."""
+    before: MotionGoal | None = None
+    for goal in graph.goals:
+        problem = _refuse_goal(context, goal, before)
+        if problem is not None:
+            return problem
+        before = goal
+    return None
+
+
+def _refuse_goal(context: Context, goal: MotionGoal, before: MotionGoal | None) -> Diagnostic | None:
+    action = goal.action
+    if isinstance(action, SlideMove):
+        return _out_of_range(context, goal, ((context.slide_joint, action.height_m),))
+    if not isinstance(action, MoveTo):
+        return None
+    if isinstance(action.target, JointTarget):
+        return _out_of_range(context, goal, action.target.joints)
+    if action.path not in ("free", "linear"):
+        return Diagnostic(
+            "XEI0806",
+            f"the path kind `{action.path}` is not planned yet",
+            goal.span,
+            "this step needs it",
+            notes=("this version plans `free` and `linear` paths of the tool",),
+        )
+    if action.path == "linear" and not _follows(before, action):
+        return Diagnostic(
+            "XEI0806",
+            "a linear move has nothing to start from",
+            goal.span,
+            "expected a free move of the same arm to the same object or place before it",
+            notes=("the template of the skill decides this, in the development profile",),
+        )
+    return None
+
+
+def _follows(before: MotionGoal | None, move: MoveTo) -> bool:
+    """Whether the goal before leaves the arm where a linear move may begin: a tool move, or what the hand does after one."""
+    if before is None or not isinstance(move.target, ToolTarget):
+        return False
+    action = before.action
+    if isinstance(action, MoveTo):
+        return action.arm == move.arm and isinstance(action.target, ToolTarget)
+    return before.kind in ("open_gripper", "close_gripper", "attach", "detach", "wait", "set_do", "confirm")
+
+
+def _out_of_range(
+    context: Context, goal: MotionGoal, joints: tuple[tuple[str, float], ...]
+) -> Diagnostic | None:
+    for joint, value in joints:
+        limit = context.limits[joint]
+        if limit.lower - 1e-9 <= value <= limit.upper + 1e-9:
+            continue
+        if joint == context.slide_joint:
+            return Diagnostic(
+                "XEI0805",
+                f"the slide cannot stand at {_mm(value)}",
+                goal.span,
+                f"expected {_mm(limit.lower)} .. {_mm(limit.upper)}",
+                notes=(f"the stroke of `{joint}` is a planning limit of the calibration profile",),
+            )
+        return Diagnostic(
+            "XEI0807",
+            f"`{joint}` cannot stand at {value:.3f} rad",
+            goal.span,
+            f"expected {limit.lower:.3f} .. {limit.upper:.3f} rad",
+            notes=("range: planning limits of the calibration profile",),
+        )
+    return None
+
+
+def blame_path(context: Context, goal: MotionGoal, blocked: PathBlocked) -> Diagnostic:
+    """A move whose way is blocked: which two bodies meet, and where on the way."""
+    first, second = blocked.bodies
+    where = {
+        "start": "they touch before the move begins",
+        "goal": "they would touch where the move ends",
+        "between": "they meet on the straight way, and no way around them was found",
+    }[blocked.where]
+    return Diagnostic(
+        "XEI0803",
+        f"the way of {_who(goal)} is blocked: `{first}` would touch `{second}`",
+        goal.span,
+        f"no free path to {_whither(goal)}",
+        notes=(where, "bodies touch where the goal does not allow it, measured on the profile's collision shapes"),
+        help=_path_help(context, blocked.bodies),
+    )
+
+
+def _path_help(context: Context, bodies: tuple[str, str]) -> tuple[str, ...]:
+    movable = [name for name in bodies if (item := context.world.find(name)) is not None and item.movable]
+    if movable:
+        return (f"move `{movable[0]}` out of the way first",)
+    fixed = [name for name in bodies if context.world.find(name) is not None]
+    if fixed:
+        return (f"check where the usage profile says that `{fixed[0]}` stands",)
+    return ("bring the other arm to `ready` first",)
+
+
+def blame_group(context: Context, failure: Failure) -> Diagnostic:
+    """A chain that found no candidate, or a transit that found no path."""
+    if isinstance(failure, BlockedTransit):
+        return blame_path(context, failure.goal, failure.blocked)
+    census = take_census(context, failure)
+    if census.within_limits == 0:
+        return _unreachable(context, failure, census)
+    return _crowded(failure, census)
+
+
+def _unreachable(context: Context, failure: Unplaced, census: Census) -> Diagnostic:
+    chain = failure.rehearsal.chain
+    reach = nearest_reach(context, failure.rehearsal)
+    notes = [_counted(census)]
+    if reach.shortfall_m > 0.0:
+        notes.append(f"the nearest grasp is {_mm(reach.shortfall_m)} out of reach, with the slide at {_mm(reach.slide_m)}")
+    else:
+        notes.append("the place is near enough, but every posture of the arm passes a joint limit")
+    return Diagnostic(
+        "XEI0801",
+        f"the {chain.arm} arm cannot reach {_subject(chain)}",
+        chain.head.span,
+        "no grasp of it is in reach",
+        notes=tuple(notes),
+        help=reach_help(context, failure.rehearsal),
+    )
+
+
+def _crowded(failure: Unplaced, census: Census) -> Diagnostic:
+    chain = failure.rehearsal.chain
+    hit = [f"`{name}`" for name, _ in census.bodies[:_SHOWN_BODIES]]
+    between = f": every grasp in reach touches {_listed(hit, 'or')}" if hit else ""
+    return Diagnostic(
+        "XEI0802",
+        f"no grasp brings the {chain.arm} hand to {_subject(chain)}{between}",
+        chain.head.span,
+        "no grasp is free of contact on the whole way in and out",
+        notes=(
+            _counted(census),
+            "a grasp must be in reach and free of contact before, at and after the place, all at one slide height",
+        ),
+        help=_room_help(chain, census),
+    )
+
+
+def _room_help(chain: Chain, census: Census) -> tuple[str, ...]:
+    if not census.neighbours:
+        return ()
+    name = census.neighbours[0]
+    verb = "a slot farther from" if chain.detach is not None else "the object after moving"
+    return (f"use {verb} `{name}`, or handle `{name}` first",)
+
+
+def _counted(census: Census) -> str:
+    parts: list[str] = []
+    if census.out_of_reach:
+        parts.append(f"{census.out_of_reach} {_are(census.out_of_reach)} out of reach")
+    if census.past_limits:
+        parts.append(f"{census.past_limits} would pass a joint limit")
+    parts.extend(f"{count} touch `{name}`" if count > 1 else f"1 touches `{name}`" for name, count in census.bodies)
+    if census.off_line:
+        parts.append(f"{census.off_line} leave a joint's range on the straight line")
+    if not parts:
+        return f"of {census.total} grasps none is left"
+    return f"of {census.total} grasps {_listed(parts, 'and')}"
+
+
+def _are(count: int) -> str:
+    return "is" if count == 1 else "are"
+
+
+def blame_timing(context: Context, failed: Untimed) -> Diagnostic:
+    """A path that no speed makes feasible."""
+    goal, failure = failed.goal, failed.failure
+    if not failure.joint:
+        return Diagnostic(
+            "XEI0804",
+            f"no timing of {_who(goal)} keeps its limits",
+            goal.span,
+            failure.reason,
+            notes=("limits: planning limits of the calibration profile",),
+        )
+    unit = "N" if failure.joint == context.slide_joint else "N m"
+    return Diagnostic(
+        "XEI0804",
+        f"`{failure.joint}` is not strong enough for this move",
+        goal.span,
+        f"expected at most {failure.limit:.1f} {unit}, found {failure.value:.1f} {unit} only to hold still",
+        notes=(failure.reason, "limits: planning limits of the calibration profile"),
+        help=("carry less, or keep the load nearer to the body",),
+    )
+
+
+def _subject(chain: Chain) -> str:
+    """What a chain is about: the object that it takes, or the place that it sets one down in."""
+    if chain.detach is not None:
+        return f"`{chain.detach.place}` with `{chain.detach.object}`"
+    if chain.attach is not None:
+        return f"`{chain.attach.object}`"
+    return f"`{chain.family.reference}`"
+
+
+def _who(goal: MotionGoal) -> str:
+    action = goal.action
+    if isinstance(action, MoveTo) and action.arm is not None:
+        return f"the {action.arm} arm"
+    if isinstance(action, SlideMove):
+        return "the slide"
+    if isinstance(action, (Attach, Detach)):
+        return f"the {action.arm} arm"
+    return "the arms"
+
+
+def _whither(goal: MotionGoal) -> str:
+    action = goal.action
+    if isinstance(action, MoveTo):
+        target = action.target
+        return f"`{target.name}`" if isinstance(target, JointTarget) else f"`{target.family}`"
+    if isinstance(action, SlideMove):
+        return _mm(action.height_m)
+    return "its goal"
+
+
+def _mm(metres: float) -> str:
+    return f"{metres * 1000:.0f} mm"
+
+
+def _listed(parts: list[str], word: str) -> str:
+    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} {word} {parts[-1]}"

@@ -1,0 +1,66 @@
+"""Goals that leave nothing to choose: named configurations, slide moves, grips, drives, waits and signals."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from xei_lang.ir.geometry import Pose
+from xei_lang.ir.goals import Grip, JointTarget, MotionGoal, MoveTo, NavToPose, Perceive, SlideMove, Wait
+from xei_lang.motion.paths.free import PathBlocked, plan_free_path
+from xei_lang.motion.sequence.context import Context
+from xei_lang.motion.sequence.enact import grip, still
+from xei_lang.motion.sequence.motions import Motion
+from xei_lang.motion.sequence.snapshot import Snapshot
+from xei_lang.motion.sequence.space import space_for
+
+PERCEIVE_S = 1.0
+"""Nominal time to ground a frame again: the schedule must hold a place for it; the run waits for the real one."""
+
+
+def plan_fixed(context: Context, goal: MotionGoal, before: Snapshot) -> Motion | PathBlocked:
+    """The motion of a goal that is not part of a chain, or what stands in its way."""
+    action = goal.action
+    if isinstance(action, MoveTo) and isinstance(action.target, JointTarget):
+        return _to_joints(context, goal, action.target, before, action.speed_fraction)
+    if isinstance(action, SlideMove):
+        target = JointTarget("slide", ((context.slide_joint, action.height_m),))
+        return _to_joints(context, goal, target, before, 1.0)
+    if isinstance(action, Grip):
+        return grip(context, goal, action, before)
+    if isinstance(action, NavToPose):
+        after = replace(before, T_world_base=action.T_world_base)
+        return Motion(goal, before, after, duration_s=_drive_s(context, before.T_world_base, action.T_world_base))
+    if isinstance(action, Wait):
+        return still(goal, before, action.duration_s)
+    if isinstance(action, Perceive):
+        return still(goal, before, max(PERCEIVE_S, goal.min_duration_s))
+    return still(goal, before)
+
+
+def _to_joints(
+    context: Context, goal: MotionGoal, target: JointTarget, before: Snapshot, speed_fraction: float
+) -> Motion | PathBlocked:
+    names = context.robot.joint_names
+    joints = tuple(joint for joint, _ in sorted(target.joints, key=lambda row: names.index(row[0])))
+    wanted = dict(target.joints)
+    indices = [names.index(joint) for joint in joints]
+    space = space_for(context, before, joints, goal.allowed_contacts)
+    q_goal = np.array([wanted[joint] for joint in joints])
+    found = plan_free_path(space, before.q[indices], q_goal, context.goal_seed(goal.id))
+    if isinstance(found, PathBlocked):
+        return found
+    q = before.q.copy()
+    q[indices] = q_goal
+    return Motion(goal, before, before.moved(q), found.path, found.planner, speed_fraction=speed_fraction)
+
+
+def _drive_s(context: Context, T_from: Pose, T_to: Pose) -> float:
+    """Straight drive at the base's speed and a turn in place at its turning rate, one after the other, seconds."""
+    way = T_from.inverse() @ T_to
+    distance = math.hypot(way.position_m[0], way.position_m[1])
+    turn = 2.0 * math.atan2(abs(way.quaternion[2]), way.quaternion[3])
+    calibration = context.profile.calibration
+    return distance / calibration.base_speed_m_s + turn / calibration.base_turn_rad_s

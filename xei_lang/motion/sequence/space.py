@@ -1,0 +1,131 @@
+"""Snapshots as collision scenes, asked by targets, motions and transits."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from xei_lang.motion.collision import AttachedBody, CollisionScene, StaticBody
+from xei_lang.motion.sequence.choose import Bools
+from xei_lang.motion.sequence.context import Context
+from xei_lang.motion.sequence.motions import Motion
+from xei_lang.motion.sequence.rehearse import Rehearsal
+from xei_lang.motion.sequence.snapshot import UNCHOSEN, Snapshot
+
+Array = NDArray[np.float64]
+Pair = tuple[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class Touch:
+    """A member whose motions fail: the two bodies that meet, or nothing where a straight line leaves a joint's range."""
+
+    member: int
+    bodies: tuple[str, ...]
+
+
+def scene_of(context: Context, snapshot: Snapshot, allowed: tuple[Pair, ...], with_held: bool = True) -> CollisionScene:
+    """The scene of a snapshot in the base frame, pairs in `allowed` left out; without what the hands hold if so asked."""
+    scene = context.bare
+    for name in snapshot.standing:
+        item = context.world.find(name)
+        if item is not None and item.geometry:
+            scene = scene.with_standing(StaticBody(name, item.geometry, snapshot.T_base_object(name)))
+    for side, held in sorted(snapshot.held.items()):
+        item = context.world.find(held.object)
+        if item is not None and item.geometry and with_held and held.member != UNCHOSEN:
+            scene = scene.with_attached(AttachedBody(held.object, item.geometry, side, held.T_tool_object))
+    return scene.with_allowed(allowed)
+
+
+def touching(scene: CollisionScene, q: Array) -> Pair | None:
+    """The first two bodies that touch at a configuration (nq,), or None."""
+    contact = scene.first_contact(q)
+    return None if contact is None else (contact.body_a, contact.body_b)
+
+
+def target_check(context: Context, rehearsal: Rehearsal) -> Callable[[int, Array], Bools]:
+    """Which configurations (n, 8) touch something at a target of a chain, what the hand holds left aside."""
+    scenes = [
+        scene_of(context, moment.snapshot, moment.goal.allowed_contacts, with_held=False)
+        for moment in rehearsal.moments
+    ]
+
+    def touches(target: int, q: Array) -> Bools:
+        whole = context.lift(rehearsal.moments[target].snapshot.q, rehearsal.chain.arm, q)
+        return scenes[target].in_collision_many(whole)
+
+    return touches
+
+
+def target_contact(context: Context, rehearsal: Rehearsal, q: Array) -> Pair | None:
+    """The first two bodies that touch at a chain's targets with the configurations q (targets, 8)."""
+    for moment, row in zip(rehearsal.moments, q, strict=True):
+        scene = scene_of(context, moment.snapshot, moment.goal.allowed_contacts, with_held=False)
+        pair = touching(scene, context.lift(moment.snapshot.q, rehearsal.chain.arm, row))
+        if pair is not None:
+            return pair
+    return None
+
+
+def motion_contact(context: Context, motion: Motion) -> Pair | None:
+    """The first two bodies that touch along a motion, looked at where its path has its breaks."""
+    if motion.path is None:
+        return None
+    names = context.robot.joint_names
+    path = motion.path
+    s = path.breaks if len(path.breaks) > 2 else np.linspace(0.0, path.length, 5)
+    whole = np.tile(motion.before.q, (len(s), 1))
+    columns = [names.index(joint) for joint in path.joints]
+    whole[:, columns] = path.evaluate(s, 0)
+    for arm in context.robot.arms.values():
+        first, second = arm.finger_indices
+        whole[:, second] = whole[:, first]
+    scene = scene_of(context, motion.before, motion.goal.allowed_contacts)
+    hits = np.flatnonzero(scene.in_collision_many(whole))
+    return None if len(hits) == 0 else touching(scene, whole[hits[0]])
+
+
+@dataclass(frozen=True, slots=True)
+class SceneSpace:
+    """Free space of some joints, the others at rest: what `plan_free_path` moves in."""
+
+    joints: tuple[str, ...]
+    lower: Array
+    upper: Array
+    speed: Array
+    scene: CollisionScene
+    rest: Array
+    columns: tuple[int, ...]
+
+    def is_free(self, q: Array) -> bool:
+        return not self.scene.in_collision(self._whole(q))
+
+    def edge_is_free(self, q_start: Array, q_end: Array) -> bool:
+        return self.scene.edge_is_free(self._whole(q_start), self._whole(q_end))
+
+    def contact(self, q: Array) -> Pair | None:
+        return touching(self.scene, self._whole(q))
+
+    def _whole(self, q: Array) -> Array:
+        whole = self.rest.copy()
+        whole[list(self.columns)] = q
+        return whole
+
+
+def space_for(context: Context, snapshot: Snapshot, joints: tuple[str, ...], allowed: tuple[Pair, ...]) -> SceneSpace:
+    """The free space of `joints` within their planning limits, everything else as in the snapshot."""
+    limits = context.limits_of(joints)
+    names = context.robot.joint_names
+    return SceneSpace(
+        joints,
+        np.array([row.lower for row in limits]),
+        np.array([row.upper for row in limits]),
+        np.array([row.velocity for row in limits]),
+        scene_of(context, snapshot, allowed),
+        snapshot.q,
+        tuple(names.index(joint) for joint in joints),
+    )
