@@ -26,7 +26,7 @@ _M = TypeVar("_M", bound=Model)
 
 
 def build_profile(files: ProfileFiles) -> tuple[Profile | None, Diagnostics]:
-    """The profile of a folder; None where anything in it is wrong. Every file's faults are found in one run."""
+    """The profile of a folder; None where anything is wrong. Faults of all files come from one run."""
     found: list[Diagnostic] = []
     registry = _read(files, REGISTRY, ObjectRegistry, found)
     usage = _read(files, registry[0].usage_profile, UsageProfile, found) if registry else None
@@ -86,7 +86,10 @@ def _read(
 def _objects(
     models: dict[str, ObjectModel], root: Node, section: str, system: bool, found: list[Diagnostic]
 ) -> tuple[LabObject, ...]:
-    built = (build_object(name, model, root, (section, name), system, found) for name, model in models.items())
+    built = (
+        build_object(model, root, (section, name), system=system, found=found)
+        for name, model in models.items()
+    )
     return tuple(item for item in built if item is not None)
 
 
@@ -94,8 +97,14 @@ def _incompatible(usage: UsageProfile, root: Node, found: list[Diagnostic]) -> t
     pairs: list[tuple[str, str]] = []
     for index, pair in enumerate(usage.incompatible):
         if len(pair) != 2:
-            found.append(Diagnostic("XEI0609", "what must not meet is written as pairs", root.span_of("incompatible", index),
-                                    label=f"expected 2 names, found {len(pair)}"))  # fmt: skip
+            found.append(
+                Diagnostic(
+                    "XEI0609",
+                    "what must not meet is written as pairs",
+                    root.span_of("incompatible", index),
+                    label=f"expected 2 names, found {len(pair)}",
+                )
+            )
         else:
             pairs.append((pair[0], pair[1]))
     return tuple(pairs)

@@ -1,8 +1,9 @@
-"""The skill bank, from the validated model to dataclasses: predicates and role expressions parsed, defaults typed."""
+"""The skill bank, from the validated model to dataclasses: predicates and roles parsed, defaults typed."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from fractions import Fraction
 from typing import TYPE_CHECKING, TypeVar, get_args
 
 from xei_lang.diagnostics import Diagnostic, Diagnostics, Source, Span, did_you_mean
@@ -12,6 +13,7 @@ from xei_lang.profiles.model import ArgSpec, SkillBank, SkillRule, SkillSpec, Te
 from xei_lang.profiles.schema.development import ArgModel, DevelopmentProfile, SkillModel
 from xei_lang.profiles.yaml_tree import Node, Path
 from xei_lang.quantity import TYPE_DIMENSIONS, Quantity, QuantityError, parse_quantity
+from xei_lang.quantity.dimension import NUMBER
 from xei_lang.syntax.parser import Parser
 
 if TYPE_CHECKING:
@@ -86,14 +88,20 @@ class _Bank:
         for index, step in enumerate(model.template):
             span = self.root.span_of(*path, index)
             if len(step) != 1:
-                self._say("XEI0609", "a step of a template is one goal", span, "expected one key, the kind of goal")
+                self._say(
+                    "XEI0609", "a step of a template is one goal", span, "expected one key, the kind of goal"
+                )
                 continue
             word, fields = next(iter(step.items()))
             key = self.root.key_span(*path, index, word)
-            kind = next((kind for kind in KINDS if kind == word), None)
+            kind: GoalKind | None = next((kind for kind in KINDS if kind == word), None)
             if kind is None:
                 near = did_you_mean(word, KINDS)
-                known = f"did you mean `{near[0]}`?" if near else "known are " + ", ".join(f"`{kind}`" for kind in KINDS)
+                known = (
+                    f"did you mean `{near[0]}`?"
+                    if near
+                    else "known are " + ", ".join(f"`{kind}`" for kind in KINDS)
+                )
                 self._say("XEI0609", f"`{word}` is not a kind of goal", key, "expected a kind of goal", known)
                 continue
             steps.append(TemplateStep(kind, tuple(fields.items()), key))
@@ -106,7 +114,11 @@ class _Bank:
             return value
         if value is None:
             return None
-        self._say("XEI0610", f"`{value}` has no unit", self.root.span_of(*path), f"expected a quantity of {type_}")
+        if type_ in ("Int", "Float"):
+            return Quantity(Fraction(str(value)), NUMBER, "")
+        self._say(
+            "XEI0610", f"`{value}` has no unit", self.root.span_of(*path), f"expected a quantity of {type_}"
+        )
         return None
 
     def _default(self, model: ArgModel, path: Path) -> str | Quantity | int | float | bool | None:
@@ -126,15 +138,21 @@ class _Bank:
             message = f"`{value}` is a quantity of {value.dimension.name}, expected {type_}"
             self._say("XEI0610", message, self.root.span_of(*path), f"expected {type_}")
 
-    def _parse(self, parse: Callable[[Source], tuple[_T | None, Diagnostics]], text: str, span: Span) -> _T | None:
-        """Parse a text of the profile; its spans point into the YAML file, as the text stands there in one line."""
+    def _parse(
+        self, parse: Callable[[Source], tuple[_T | None, Diagnostics]], text: str, span: Span
+    ) -> _T | None:
+        """Parse a text of the profile; spans point into the YAML file, where it stands in one line."""
         written = self.text[span.start : span.end]
         start = span.start + (1 if written[:1] in ("'", '"') else 0)
         value, faults = parse(Source(span.file, " " * start + text))
         for fault in faults:
             label = fault.label or fault.message
             message = f"`{text}` cannot be read as an expression of the language"
-            self.found.append(Diagnostic("XEI0622", message, fault.span or span, label, notes=(fault.message,), help=fault.help))
+            self.found.append(
+                Diagnostic(
+                    "XEI0622", message, fault.span or span, label, notes=(fault.message,), help=fault.help
+                )
+            )
         return value
 
     def _say(self, code: str, message: str, span: Span, label: str, *help_: str) -> None:

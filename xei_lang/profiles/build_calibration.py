@@ -1,4 +1,4 @@
-"""The calibration profile, from the validated model to dataclasses; ranges that it leaves out are the robot's."""
+"""The calibration profile, from the validated model to dataclasses; ranges left out are the robot's."""
 
 from __future__ import annotations
 
@@ -6,7 +6,14 @@ from collections.abc import Iterator
 
 from xei_lang.diagnostics import Diagnostic, Span, did_you_mean
 from xei_lang.profiles.build_objects import pose, vec3
-from xei_lang.profiles.model import CalibratedFrame, Calibration, PlanningLimit, RobotDescription, RobotJoint, SceneOrigin
+from xei_lang.profiles.model import (
+    CalibratedFrame,
+    Calibration,
+    PlanningLimit,
+    RobotDescription,
+    RobotJoint,
+    SceneOrigin,
+)
 from xei_lang.profiles.schema.calibration import CalibrationProfile, LimitModel
 from xei_lang.profiles.yaml_tree import Node
 from xei_lang.quantity import Quantity
@@ -78,9 +85,20 @@ def _limits(
             joint = robot.joint(name)
             if joint is None or name not in movable:
                 near = did_you_mean(name, movable)
-                help_ = f"did you mean `{near[0]}`?" if near else "joints that can be planned: " + ", ".join(movable)
-                found.append(Diagnostic("XEI0620", f"the robot has no joint `{name}` that can be planned", span,
-                                        label="unknown joint", help=(help_,)))  # fmt: skip
+                help_ = (
+                    f"did you mean `{near[0]}`?"
+                    if near
+                    else "joints that can be planned: " + ", ".join(movable)
+                )
+                found.append(
+                    Diagnostic(
+                        "XEI0620",
+                        f"the robot has no joint `{name}` that can be planned",
+                        span,
+                        label="unknown joint",
+                        help=(help_,),
+                    )
+                )
             elif _units_fit(limit, joint, root, index, found):
                 yield _limit(limit, joint, span)
 
@@ -102,8 +120,11 @@ def _limit(limit: LimitModel, joint: RobotJoint, span: Span) -> PlanningLimit:
 def _units_fit(limit: LimitModel, joint: RobotJoint, root: Node, index: int, found: list[Diagnostic]) -> bool:
     base = LENGTH if joint.kind == "prismatic" else ANGLE
     quantities: dict[str, Quantity | None] = {
-        "lower": limit.lower, "upper": limit.upper, "velocity": limit.velocity, "acceleration": limit.acceleration,
-    }  # fmt: skip
+        "lower": limit.lower,
+        "upper": limit.upper,
+        "velocity": limit.velocity,
+        "acceleration": limit.acceleration,
+    }
     for key, value in quantities.items():
         if value is None:
             continue
@@ -111,13 +132,25 @@ def _units_fit(limit: LimitModel, joint: RobotJoint, root: Node, index: int, fou
         if wrong:
             wanted = "metres" if base == LENGTH else "radians or degrees"
             message = f"`{joint.name}` is {joint.kind}, and `{value}` does not measure its {key}"
-            found.append(Diagnostic("XEI0610", message, root.span_of("limits", index, key), label=f"expected {wanted}"))
+            found.append(
+                Diagnostic("XEI0610", message, root.span_of("limits", index, key), label=f"expected {wanted}")
+            )
             return False
-    wrong_effort = "torque" if joint.kind == "prismatic" and limit.torque else "force" if base == ANGLE and limit.force else ""
+    wrong_effort = (
+        "torque"
+        if joint.kind == "prismatic" and limit.torque
+        else "force"
+        if base == ANGLE and limit.force
+        else ""
+    )
     if wrong_effort:
         other = "force" if wrong_effort == "torque" else "torque"
         message = f"`{joint.name}` is {joint.kind}, and has a {other}, no {wrong_effort}"
-        found.append(Diagnostic("XEI0610", message, root.key_span("limits", index, wrong_effort), label=f"expected `{other}`"))
+        found.append(
+            Diagnostic(
+                "XEI0610", message, root.key_span("limits", index, wrong_effort), label=f"expected `{other}`"
+            )
+        )
         return False
     return True
 

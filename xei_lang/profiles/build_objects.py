@@ -8,8 +8,15 @@ import re
 from xei_lang.diagnostics import Diagnostic
 from xei_lang.ir.geometry import Box, Cylinder, Pose, Primitive, Shape, Vec3
 from xei_lang.profiles.model import (
-    Element, FiniteState, LabObject, Liquid, OperationDefault, Prior, SlotGrid, Spot,
-)  # fmt: skip
+    Element,
+    FiniteState,
+    LabObject,
+    Liquid,
+    OperationDefault,
+    Prior,
+    SlotGrid,
+    Spot,
+)
 from xei_lang.profiles.schema.usage import ObjectModel, PriorModel, ShapeModel
 from xei_lang.profiles.yaml_tree import Node, Path
 from xei_lang.quantity import Quantity
@@ -29,16 +36,16 @@ def pose(position: list[Quantity] | None, rpy: list[Quantity] | None) -> Pose:
 
 
 def build_object(
-    name: str, model: ObjectModel, root: Node, path: Path, system: bool, found: list[Diagnostic]
+    model: ObjectModel, root: Node, path: Path, *, system: bool, found: list[Diagnostic]
 ) -> LabObject | None:
-    """The object that stands at `path`; None, with a diagnostic in `found`, where its parts do not fit together."""
+    """The object that stands at `path` and is named by its end; None, with diagnostics in `found`, where parts do not fit."""
     shape = _shape(model.shape, root, (*path, "shape"), found)
     parts = _parts(model, shape, root, path, found)
     prior = _prior(model.prior, root, (*path, "prior"), found) if model.prior else None
     if shape is None or parts is None:
         return None
     return LabObject(
-        name=name,
+        name=str(path[-1]),
         aliases=tuple(model.aliases),
         roles=tuple(model.roles),
         shape=shape,
@@ -51,7 +58,8 @@ def build_object(
         grasp=operation_defaults(model.grasp, root, (*path, "grasp")),
         slots=_slots(model, root, path),
         spots=tuple(
-            Spot(key, pose(spot.position, spot.rpy), root.key_span(*path, "spots", key)) for key, spot in model.spots.items()
+            Spot(key, pose(spot.position, spot.rpy), root.key_span(*path, "spots", key))
+            for key, spot in model.spots.items()
         ),
         elements=_elements(model, root, path),
         prior=prior,
@@ -61,15 +69,23 @@ def build_object(
     )
 
 
-def operation_defaults(values: dict[str, Quantity | str], root: Node, path: Path) -> tuple[OperationDefault, ...]:
+def operation_defaults(
+    values: dict[str, Quantity | str], root: Node, path: Path
+) -> tuple[OperationDefault, ...]:
     """Operation parameters that a profile states, in the order in which it states them."""
     return tuple(OperationDefault(key, value, root.span_of(*path, key)) for key, value in values.items())
 
 
 def _shape(model: ShapeModel, root: Node, path: Path, found: list[Diagnostic]) -> Shape | None:
     if (model.box is None) == (model.cylinder is None):
-        found.append(Diagnostic("XEI0609", "a shape must be one of `box` and `cylinder`", root.span_of(*path),
-                                label="expected just one of the two"))  # fmt: skip
+        found.append(
+            Diagnostic(
+                "XEI0609",
+                "a shape must be one of `box` and `cylinder`",
+                root.span_of(*path),
+                label="expected just one of the two",
+            )
+        )
         return None
     shape: Shape
     if model.box is not None:
@@ -78,8 +94,14 @@ def _shape(model: ShapeModel, root: Node, path: Path, found: list[Diagnostic]) -
         assert model.cylinder is not None
         shape = Cylinder(model.cylinder.diameter.si / 2, model.cylinder.height.si)
     if min(_size(shape)) <= 0.0:
-        found.append(Diagnostic("XEI0640", "a shape must have a size above zero in every direction", root.span_of(*path),
-                                label="zero or negative"))  # fmt: skip
+        found.append(
+            Diagnostic(
+                "XEI0640",
+                "a shape must have a size above zero in every direction",
+                root.span_of(*path),
+                label="zero or negative",
+            )
+        )
         return None
     return shape
 
@@ -153,10 +175,15 @@ def _prior(model: PriorModel, root: Node, path: Path, found: list[Diagnostic]) -
     if (model.in_ is None) == (model.frame is None) or (model.frame and model.position is None):
         found.append(
             Diagnostic(
-                "XEI0609", "a prior names either a place or a pose in a frame", span,
+                "XEI0609",
+                "a prior names either a place or a pose in a frame",
+                span,
                 label="expected `in`, or `frame` with `position`",
-                help=("""write `in: 'rack_1.slot("A1")'`, or `frame: table` with `position: [0.1 m, 0 m, 0 m]`""",),
-            )  # fmt: skip
+                help=(
+                    """write `in: 'rack_1.slot("A1")'`, or `frame: table` with `position: [0.1 m, 0 m, 0
+                    m]`""",
+                ),
+            )
         )
         return None
     if model.in_ is None:
@@ -166,8 +193,15 @@ def _prior(model: PriorModel, root: Node, path: Path, found: list[Diagnostic]) -
     match = _PLACE.fullmatch(model.in_.strip())
     where = root.span_of(*path, "in")
     if match is None:
-        found.append(Diagnostic("XEI0609", f"`{model.in_}` is not a place", where, label="expected a slot or a spot",
-                                help=("""write for example 'rack_1.slot("A1")' or 'table.spot("bottle")'""",)))  # fmt: skip
+        found.append(
+            Diagnostic(
+                "XEI0609",
+                f"`{model.in_}` is not a place",
+                where,
+                label="expected a slot or a spot",
+                help=("""write for example 'rack_1.slot("A1")' or 'table.spot("bottle")'""",),
+            )
+        )
         return None
     kind = "slot" if match[2] == "slot" else "spot"
     yaw = vec3(model.rpy)[2] if model.rpy else 0.0

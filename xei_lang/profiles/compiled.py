@@ -1,8 +1,9 @@
-"""Compiled profiles: a frozen Profile on disk, used while no byte of its files and no line of the loader has changed.
+"""Compiled profiles: a frozen Profile on disk, used while no byte of its files and no line of the loader has
+changed.
 
-The form is a pickle that is read through an unpickler which makes nothing but xei's own dataclasses and exact fractions, so that
-a file that somebody else wrote into the cache cannot run code. Anything that is wrong with the cache means a slower load, and
-is no fault.
+The form is a pickle that is read through an unpickler which makes nothing but xei's own dataclasses and exact
+fractions, so that a file that somebody else wrote into the cache cannot run code. Anything that is wrong with
+the cache means a slower load, and is no fault.
 """
 
 from __future__ import annotations
@@ -22,7 +23,16 @@ from xei_lang.diagnostics import Diagnostic, Diagnostics
 from xei_lang.profiles.files import ProfileFiles
 from xei_lang.profiles.model import Profile
 
-_PACKAGES = ("profiles", "profiles/checks", "profiles/schema", "diagnostics", "ir", "quantity", "syntax", "syntax/ast")
+_PACKAGES = (
+    "profiles",
+    "profiles/checks",
+    "profiles/schema",
+    "diagnostics",
+    "ir",
+    "quantity",
+    "syntax",
+    "syntax/ast",
+)
 
 
 def default_cache() -> Path:
@@ -32,7 +42,9 @@ def default_cache() -> Path:
 
 
 def key_of(files: ProfileFiles) -> str:
-    """A name for what a load of these files gives: their bytes, where they are shown, and the code that reads them."""
+    """A name for what a load of these files gives: their bytes, where they are shown, and the code that reads
+    them.
+    """
     digest = hashlib.sha256()
     version = getattr(xei_lang, "__version__", "")
     digest.update(repr((version, sys.version_info[:3], files.shown, files.hashes, _code())).encode())

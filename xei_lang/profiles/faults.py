@@ -46,12 +46,21 @@ def _explain_one(details: ErrorDetails, root: Node, model: type[BaseModel]) -> D
         return _missing_key(path, root)
     if kind == "quantity":
         context = details.get("ctx", {})
-        return Diagnostic("XEI0610", details["msg"], root.span_of(*path), label="expected a quantity", help=(context["help"],))
+        return Diagnostic(
+            "XEI0610",
+            details["msg"],
+            root.span_of(*path),
+            label="expected a quantity",
+            help=(context["help"],),
+        )
     if path == ("version",):
         return Diagnostic(
-            "XEI0611", f"version {root.find(path).scalar} of this profile is not one that xei reads", root.span_of(*path),
-            label="expected 1", help=("write `version: 1`",),
-        )  # fmt: skip
+            "XEI0611",
+            f"version {root.find(path).scalar} of this profile is not one that xei reads",
+            root.span_of(*path),
+            label="expected 1",
+            help=("write `version: 1`",),
+        )
     return _wrong_value(details, path, root)
 
 
@@ -75,15 +84,25 @@ def _unknown_key(path: Path, root: Node, model: type[BaseModel]) -> Diagnostic:
     key = str(path[-1])
     near = did_you_mean(key, known)
     where = f" of `{path[-2]}`" if len(path) > 1 and isinstance(path[-2], str) else ""
-    help_ = f"did you mean `{near[0]}`?" if near else "known here: " + ", ".join(f"`{name}`" for name in known)
-    return Diagnostic("XEI0607", f"`{key}` is not a key{where}", root.key_span(*path), label="unknown key", help=(help_,))
+    help_ = (
+        f"did you mean `{near[0]}`?" if near else "known here: " + ", ".join(f"`{name}`" for name in known)
+    )
+    return Diagnostic(
+        "XEI0607", f"`{key}` is not a key{where}", root.key_span(*path), label="unknown key", help=(help_,)
+    )
 
 
 def _missing_key(path: Path, root: Node) -> Diagnostic:
     key, owner = path[-1], path[:-1]
     what = f"`{owner[-1]}` has" if owner and isinstance(owner[-1], str) else "this has"
     span = root.span_of(*owner) if owner else Span(root.span.file, root.span.start, root.span.start + 1)
-    return Diagnostic("XEI0608", f"{what} no `{key}`", span, label=f"expected a `{key}` in here", help=(f"add `{key}: ...`",))
+    return Diagnostic(
+        "XEI0608",
+        f"{what} no `{key}`",
+        span,
+        label=f"expected a `{key}` in here",
+        help=(f"add `{key}: ...`",),
+    )
 
 
 def _wrong_value(details: ErrorDetails, path: Path, root: Node) -> Diagnostic:
@@ -92,13 +111,22 @@ def _wrong_value(details: ErrorDetails, path: Path, root: Node) -> Diagnostic:
     shown = "nothing" if node.kind == "scalar" and node.scalar is None else _shown(node)
     wanted = _KINDS.get(details["type"])
     if wanted:
-        return Diagnostic("XEI0609", f"{name} must be {wanted}, found {shown}", root.span_of(*path), label=f"expected {wanted}")
+        return Diagnostic(
+            "XEI0609",
+            f"{name} must be {wanted}, found {shown}",
+            root.span_of(*path),
+            label=f"expected {wanted}",
+        )
     reason = details["msg"].removeprefix("Input should ").removeprefix("Value error, ")
     if details["type"] == "string_pattern_mismatch":
         reason = "must be a name: small letters, digits and `_`, beginning with a letter"
         span = root.key_span(*path) if details["loc"][-1] == "[key]" else root.span_of(*path)
-        return Diagnostic("XEI0609", f"{shown if node.kind == 'scalar' else name} {reason}", span, label="not a name")
-    return Diagnostic("XEI0609", f"{name} is not right: {shown} should {reason}", root.span_of(*path), label=reason)
+        return Diagnostic(
+            "XEI0609", f"{shown if node.kind == 'scalar' else name} {reason}", span, label="not a name"
+        )
+    return Diagnostic(
+        "XEI0609", f"{name} is not right: {shown} should {reason}", root.span_of(*path), label=reason
+    )
 
 
 def _shown(node: Node) -> str:

@@ -17,7 +17,9 @@ MAX_TEXT_BYTES = 2_000_000
 
 @dataclass(frozen=True, slots=True)
 class ProfileFiles:
-    """A profile folder as read: `shown` is its path for messages, `hashes` the SHA-256 of each file below it, sorted."""
+    """A profile folder as read: `shown` is its path for messages, `hashes` the SHA-256 of each file below it,
+    sorted.
+    """
 
     folder: Path
     shown: str
@@ -54,8 +56,14 @@ def read_text(files: ProfileFiles, name: str, found: list[Diagnostic]) -> Source
     """The text of one file; None, with a diagnostic, where it is missing, too large or no UTF-8."""
     shown = files.shown_path(name)
     if os.path.isabs(name) or ".." in name.split("/"):
-        found.append(Diagnostic("XEI0602", f"`{name}` would leave the profile's folder", Span(shown, 0, 0),
-                                help=("name a file inside the profile's folder",)))  # fmt: skip
+        found.append(
+            Diagnostic(
+                "XEI0602",
+                f"`{name}` would leave the profile's folder",
+                Span(shown, 0, 0),
+                help=("name a file inside the profile's folder",),
+            )
+        )
         return None
     try:
         data = (files.folder / name).read_bytes()
@@ -64,15 +72,25 @@ def read_text(files: ProfileFiles, name: str, found: list[Diagnostic]) -> Source
         message = f"the profile has no `{name}`" if missing else f"`{name}` cannot be read: {error.strerror}"
         found.append(
             Diagnostic(
-                "XEI0602", message, Span(shown, 0, 0),
-                notes=(f"a profile is a folder with `{DEVELOPMENT}`, `{CALIBRATION}`, `{REGISTRY}` and the files that they name",),
+                "XEI0602",
+                message,
+                Span(shown, 0, 0),
+                notes=(
+                    f"a profile has `{DEVELOPMENT}`, `{CALIBRATION}`, `{REGISTRY}` and the files they name",
+                ),
                 help=(f"put it at `{shown}`" if missing else f"make `{shown}` a file that can be read",),
-            )  # fmt: skip
+            )
         )
         return None
     if len(data) > MAX_TEXT_BYTES:
-        found.append(Diagnostic("XEI0602", f"`{name}` is larger than {MAX_TEXT_BYTES // 1_000_000} MB", Span(shown, 0, 0),
-                                help=("keep meshes and recordings in files of their own",)))  # fmt: skip
+        found.append(
+            Diagnostic(
+                "XEI0602",
+                f"`{name}` is larger than {MAX_TEXT_BYTES // 1_000_000} MB",
+                Span(shown, 0, 0),
+                help=("keep meshes and recordings in files of their own",),
+            )
+        )
         return None
     return _decode(data, name, shown, found)
 
@@ -84,13 +102,25 @@ def _decode(data: bytes, name: str, shown: str, found: list[Diagnostic]) -> Sour
         line = data[: error.start].count(b"\n") + 1
         column = error.start - (data.rfind(b"\n", 0, error.start) + 1) + 1
         offset = len(data[: error.start].decode("utf-8"))
-        found.append(Diagnostic("XEI0602", f"`{name}` is not UTF-8 text", Span(shown, offset, offset + 1),
-                                label=f"byte 0x{data[error.start]:02x} at line {line}, byte {column}",
-                                help=("save the file as UTF-8",)))  # fmt: skip
+        found.append(
+            Diagnostic(
+                "XEI0602",
+                f"`{name}` is not UTF-8 text",
+                Span(shown, offset, offset + 1),
+                label=f"byte 0x{data[error.start]:02x} at line {line}, byte {column}",
+                help=("save the file as UTF-8",),
+            )
+        )
         return None
     if text.startswith("\ufeff"):
-        found.append(Diagnostic("XEI0602", f"`{name}` begins with a byte order mark", Span(shown, 0, 1),
-                                help=("save the file as UTF-8 without a byte order mark",)))  # fmt: skip
+        found.append(
+            Diagnostic(
+                "XEI0602",
+                f"`{name}` begins with a byte order mark",
+                Span(shown, 0, 1),
+                help=("save the file as UTF-8 without a byte order mark",),
+            )
+        )
         return None
     return Source(shown, text)
 

@@ -17,10 +17,11 @@ def slot_keys(grid: SlotGrid) -> tuple[str, ...]:
 def slot_cell(grid: SlotGrid, key: str) -> tuple[int, int] | None:
     """Row and column, both from 0, of a key such as `A1`; None where the grid has no such slot."""
     for index, row in enumerate(grid.rows):
-        number = key[len(row) :]
-        if key.startswith(row) and number.isascii() and number.isdigit() and number[0] != "0":
-            if len(number) <= 4 and int(number) <= grid.columns:
-                return index, int(number) - 1
+        if key.startswith(row):
+            number = key[len(row) :]
+            column = next((j for j in range(grid.columns) if str(j + 1) == number), None)
+            if column is not None:
+                return index, column
     return None
 
 
@@ -40,7 +41,9 @@ def T_object_spot(item: LabObject, key: str) -> Pose | None:
 
 
 def T_object_standing(item: LabObject, kind: str, key: str) -> Pose | None:
-    """Where the bottom centre of an object in this slot or spot is: in a slot on its floor, `depth_m` under the mouth."""
+    """Where the bottom centre of an object in this slot or spot is: in a slot on its floor, `depth_m` under
+    the mouth.
+    """
     if kind != "slot" or item.slots is None:
         return T_object_spot(item, key)
     T_slot = T_object_slot(item, key)
@@ -59,7 +62,9 @@ def prior_chain(profile: Profile, item: LabObject) -> tuple[LabObject, ...]:
 
 
 def T_frame_object(profile: Profile, item: LabObject) -> tuple[str, Pose] | None:
-    """The frame in which an object's prior ends and its pose there; None where the priors do not lead to a frame."""
+    """The frame in which an object's prior ends and its pose there; None where the priors do not lead to a
+    frame.
+    """
     pose = Pose()
     for link in prior_chain(profile, item):
         if link.prior is None:

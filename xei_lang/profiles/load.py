@@ -14,7 +14,8 @@ from xei_lang.profiles.model import Profile
 
 
 def load_profile(folder: Path, cache: Path | None) -> tuple[Profile | None, Diagnostics]:
-    """The profile in a folder, or why there is none; `cache` is the folder of compiled profiles, None for no cache.
+    """The profile in a folder, or why there is none; `cache` is the folder of compiled profiles, None for no
+    cache.
 
     Warnings come back with a profile that is read from its compiled form, too.
     """
@@ -43,8 +44,17 @@ def _build(files: ProfileFiles) -> tuple[Profile | None, Diagnostics]:
 def _unreadable(folder: Path, error: OSError) -> Diagnostic:
     shown = shown_path(folder)
     if isinstance(error, NotADirectoryError):
-        return Diagnostic("XEI0601", f"`{shown}` is a file, and a profile is a folder", help=("name the folder that it stands in",))
+        return Diagnostic(
+            "XEI0601",
+            f"`{shown}` is a file, and a profile is a folder",
+            help=("name the folder that it stands in",),
+        )
     if isinstance(error, FileNotFoundError) and not folder.exists():
         return Diagnostic("XEI0601", f"there is no folder `{shown}`", help=("name the folder of a profile",))
     where = shown_path(Path(error.filename)) if error.filename else shown
-    return Diagnostic("XEI0602", f"`{where}` cannot be read: {error.strerror}", Span(where, 0, 0), help=("make it readable",))
+    return Diagnostic(
+        "XEI0602",
+        f"`{where}` cannot be read: {error.strerror}",
+        Span(where, 0, 0),
+        help=("make it readable",),
+    )

@@ -1,7 +1,8 @@
-"""The profiles as the compiler sees them: frozen, in SI units, each part with the place that it was written at.
+"""The profiles as the compiler sees them: frozen, in SI units, each part with the place that it was written
+at.
 
-These are plain dataclasses so that an unchanged profile is loaded from its compiled form without pydantic. The
-pydantic models that validate the YAML files stand in `profiles/schema/`.
+These are plain dataclasses so that an unchanged profile is loaded from its compiled form without pydantic.
+The pydantic models that validate the YAML files stand in `profiles/schema/`.
 """
 
 from __future__ import annotations
@@ -44,8 +45,8 @@ class FiniteState:
 
 @dataclass(frozen=True, slots=True)
 class SlotGrid:
-    """A grid of slots: `rows[i]` and column j (from 1) name the slot `A1`; its mouth stands at
-    `origin_m + (j-1) * pitch_m[0] * x + i * pitch_m[1] * y` in the object's frame, its axis along z.
+    """A grid of slots: `rows[i]` and column j (from 1) name the slot `A1`; its mouth stands at `origin_m +
+    (j-1) * pitch_m[0] * x + i * pitch_m[1] * y` in the object's frame, its axis along z.
 
     `origin_m` is given from the corner of the bounding box with the smallest x and y, z from the bottom.
     """
@@ -82,7 +83,9 @@ class Element:
 
 @dataclass(frozen=True, slots=True)
 class Prior:
-    """Where an object is believed to be: in a place of another object, or (`in_object` empty) at a pose in a frame."""
+    """Where an object is believed to be: in a place of another object, or (`in_object` empty) at a pose in a
+    frame.
+    """
 
     in_object: str
     in_key: str
@@ -95,7 +98,9 @@ class Prior:
 
 @dataclass(frozen=True, slots=True)
 class OperationDefault:
-    """An operation parameter that a profile states for an object or a skill (`approach`, `width`, `standoff`)."""
+    """An operation parameter that a profile states for an object or a skill (`approach`, `width`,
+    `standoff`).
+    """
 
     name: str
     value: Quantity | str
@@ -104,7 +109,9 @@ class OperationDefault:
 
 @dataclass(frozen=True, slots=True)
 class LabObject:
-    """An object of the usage profile or a system object of the registry. Its frame is at its bottom centre, z up."""
+    """An object of the usage profile or a system object of the registry. Its frame is at its bottom centre, z
+    up.
+    """
 
     name: str
     aliases: tuple[str, ...]
@@ -131,11 +138,13 @@ class LabObject:
 
 @dataclass(frozen=True, slots=True)
 class ArgSpec:
-    """An argument of a skill. `type` is `object`, `Place`, `Station`, `Arm`, a quantity's type, `Int`, `Float`, `Bool`,
-    `String`, or `choice` (then `choices` are its words). Bounds hold for quantities and numbers, ends included.
+    """An argument of a skill. `type` is `object`, `Place`, `Station`, `Arm`, a quantity's type, `Int`,
+    `Float`, `Bool`, `String`, or `choice` (then `choices` are its words). Bounds hold for quantities and
+    numbers, ends included.
 
-    For a Place, `choices` are the kinds that it admits (`slot`, `spot`, `surface`; empty admits all), and an object
-    whose roles satisfy `roles` may be given for its whole surface. `roles_text` is what the profile says, for messages.
+    For a Place, `choices` are the kinds that it admits (`slot`, `spot`, `surface`; empty admits all), and an
+    object whose roles satisfy `roles` may be given for its whole surface. `roles_text` is what the profile
+    says, for messages.
     """
 
     name: str
@@ -233,7 +242,9 @@ class CalibratedFrame:
 
 @dataclass(frozen=True, slots=True)
 class PlanningLimit:
-    """The limits that plans keep for one joint, and why these: rad, rad/s, rad/s2, N m (m, N for prismatic joints)."""
+    """The limits that plans keep for one joint, and why these: rad, rad/s, rad/s2, N m (m, N for prismatic
+    joints).
+    """
 
     joint: str
     lower: float
@@ -247,7 +258,9 @@ class PlanningLimit:
 
 @dataclass(frozen=True, slots=True)
 class SceneOrigin:
-    """A station: the base pose (in `world`) from which a bench is worked, and the frame to ground again there."""
+    """A station: the base pose (in `world`) from which a bench is worked, and the frame to ground again
+    there.
+    """
 
     name: str
     aliases: tuple[str, ...]
@@ -260,10 +273,11 @@ class SceneOrigin:
 
 @dataclass(frozen=True, slots=True)
 class Calibration:
-    """Frames, limits and tolerances of this deployment. Bounds are `(min xyz, max xyz)` in their frame, metres.
+    """Frames, limits and tolerances of this deployment. Bounds are `(min xyz, max xyz)` in their frame,
+    metres.
 
-    `robot_frames` maps frames that the robot carries to links of its description. `placeholders` lists what nobody has
-    measured yet and what therefore blocks a run on hardware.
+    `robot_frames` maps frames that the robot carries to links of its description. `placeholders` lists what
+    nobody has measured yet and what therefore blocks a run on hardware.
     """
 
     frames: tuple[CalibratedFrame, ...]
@@ -291,7 +305,8 @@ class Calibration:
 
 @dataclass(frozen=True, slots=True)
 class RobotJoint:
-    """A joint of the URDF: its links, its place in the parent link, and its range and rating (rad or m, rad/s or m/s, N m or N).
+    """A joint of the URDF: its links, its place in the parent link, and its range and rating (rad or m, rad/s
+    or m/s, N m or N).
 
     A fixed joint has no range. `mimic` names the joint that it follows, or is empty.
     """
@@ -332,15 +347,19 @@ class RobotDescription:
         return next((item for item in self.joints if item.name == name), None)
 
     def state(self, name: str) -> tuple[tuple[str, float], ...]:
-        """All joints that the groups' states of this name set, in the groups' order; empty for an unknown name."""
+        """All joints that the groups' states of this name set, in the groups' order; empty for an unknown
+        name.
+        """
         return tuple(joint for state in self.states if state.name == name for joint in state.joints)
 
 
 @dataclass(frozen=True, slots=True)
 class Profile:
-    """A whole profile folder: all objects sorted by name, the skill bank, the calibration, the robot's description.
+    """A whole profile folder: all objects sorted by name, the skill bank, the calibration, the robot's
+    description.
 
-    `files` maps each file (path relative to the folder) to the SHA-256 of its bytes; `hazards` lists those of each liquid.
+    `files` maps each file (path relative to the folder) to the SHA-256 of its bytes; `hazards` lists those of
+    each liquid.
     """
 
     name: str

@@ -7,7 +7,6 @@ Only the standard library's XML reader is used, so that `check` needs no robotic
 from __future__ import annotations
 
 import math
-from typing import Literal, cast
 from xml.etree import ElementTree
 
 from xei_lang.diagnostics import Diagnostic, Diagnostics, Source, Span
@@ -17,7 +16,7 @@ from xei_lang.profiles.model import NamedState, RobotDescription, RobotJoint
 _KINDS = ("fixed", "revolute", "continuous", "prismatic")
 
 
-class _Unreadable(Exception):
+class _UnreadableError(Exception):
     """A fault of the description; never leaves this module."""
 
 
@@ -30,7 +29,7 @@ def read_robot(urdf: Source, srdf: Source) -> tuple[RobotDescription | None, Dia
     try:
         links = tuple(_attribute(link, "name") for link in trees[0].findall("link"))
         joints = tuple(_joint(joint) for joint in trees[0].findall("joint"))
-    except (_Unreadable, ValueError) as fault:
+    except (_UnreadableError, ValueError) as fault:
         return None, (_unreadable(urdf, str(fault)),)
     children = {joint.child for joint in joints}
     roots = [link for link in links if link not in children]
@@ -38,14 +37,16 @@ def read_robot(urdf: Source, srdf: Source) -> tuple[RobotDescription | None, Dia
         return None, (_unreadable(urdf, f"it has {len(roots)} links that no joint carries, expected one"),)
     try:
         states = tuple(_state(state) for state in trees[1].findall("group_state"))
-    except (_Unreadable, ValueError) as fault:
+    except (_UnreadableError, ValueError) as fault:
         return None, (_unreadable(srdf, str(fault)),)
     return RobotDescription(roots[0], links, joints, states), ()
 
 
 def _tree(source: Source, found: list[Diagnostic]) -> ElementTree.Element | None:
     if "<!DOCTYPE" in source.text:
-        found.append(_unreadable(source, "it declares a document type, which a robot description does not need"))
+        found.append(
+            _unreadable(source, "it declares a document type, which a robot description does not need")
+        )
         return None
     try:
         return ElementTree.fromstring(source.text)
@@ -59,16 +60,19 @@ def _tree(source: Source, found: list[Diagnostic]) -> ElementTree.Element | None
 def _unreadable(source: Source, reason: str, offset: int = 0) -> Diagnostic:
     name = source.file.rsplit("/", 1)[-1]
     return Diagnostic(
-        "XEI0650", f"`{name}` cannot be read as a robot description", Span(source.file, offset, offset + 1), label=reason,
+        "XEI0650",
+        f"`{name}` cannot be read as a robot description",
+        Span(source.file, offset, offset + 1),
+        label=reason,
         notes=("`robot:` in development_profile.yaml names the URDF and SRDF",),
         help=("write the description anew from its figures, or name another file",),
-    )  # fmt: skip
+    )
 
 
 def _joint(element: ElementTree.Element) -> RobotJoint:
     name, kind = _attribute(element, "name"), _attribute(element, "type")
     if kind not in _KINDS:
-        raise _Unreadable(f"joint `{name}` has the type `{kind}`; known are {', '.join(_KINDS)}")
+        raise _UnreadableError(f"joint `{name}` has the type `{kind}`; known are {', '.join(_KINDS)}")
     limit, mimic = element.find("limit"), element.find("mimic")
     lower, upper = _number(limit, "lower", 0.0), _number(limit, "upper", 0.0)
     if kind == "continuous":
@@ -76,7 +80,7 @@ def _joint(element: ElementTree.Element) -> RobotJoint:
     origin, axis = element.find("origin"), element.find("axis")
     return RobotJoint(
         name=name,
-        kind=cast("Literal['fixed', 'revolute', 'continuous', 'prismatic']", kind),
+        kind=kind,
         parent=_attribute(_child(element, "parent"), "link"),
         child=_attribute(_child(element, "child"), "link"),
         T_parent_joint=Pose.from_rpy(_vector(origin, "xyz", "0 0 0"), _vector(origin, "rpy", "0 0 0")),
@@ -90,21 +94,23 @@ def _joint(element: ElementTree.Element) -> RobotJoint:
 
 
 def _state(element: ElementTree.Element) -> NamedState:
-    joints = tuple((_attribute(joint, "name"), float(_attribute(joint, "value"))) for joint in element.findall("joint"))
+    joints = tuple(
+        (_attribute(joint, "name"), float(_attribute(joint, "value"))) for joint in element.findall("joint")
+    )
     return NamedState(_attribute(element, "name"), _attribute(element, "group"), joints)
 
 
 def _child(element: ElementTree.Element, tag: str) -> ElementTree.Element:
     found = element.find(tag)
     if found is None:
-        raise _Unreadable(f"joint `{element.get('name')}` has no <{tag}>")
+        raise _UnreadableError(f"joint `{element.get('name')}` has no <{tag}>")
     return found
 
 
 def _attribute(element: ElementTree.Element, name: str) -> str:
     value = element.get(name)
     if value is None:
-        raise _Unreadable(f"a <{element.tag}> has no `{name}`")
+        raise _UnreadableError(f"a <{element.tag}> has no `{name}`")
     return value
 
 
@@ -115,6 +121,6 @@ def _number(element: ElementTree.Element | None, name: str, otherwise: float) ->
 def _vector(element: ElementTree.Element | None, name: str, otherwise: str) -> Vec3:
     words = (element.get(name, otherwise) if element is not None else otherwise).split()
     if len(words) != 3:
-        raise _Unreadable(f"`{' '.join(words)}` are not three numbers")
+        raise _UnreadableError(f"`{' '.join(words)}` are not three numbers")
     x, y, z = (float(word) for word in words)
     return (x, y, z)

@@ -1,12 +1,13 @@
 """YAML text to a tree with places.
 
-Built from parser events without recursion, so that no input can exhaust the stack; duplicate keys, aliases, anchors, tags, merge
-keys and ambiguous words are diagnostics, because a profile moves a robot and must hold just what its reader sees.
+Built from parser events without recursion, so that no input can exhaust the stack; duplicate keys, aliases,
+anchors, tags, merge keys and ambiguous words are diagnostics, because a profile moves a robot and must hold
+just what its reader sees.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import yaml
@@ -30,12 +31,21 @@ def read_yaml(file: str, text: str) -> tuple[Node | None, Diagnostics]:
         builder.say_broken(error)
         return None, tuple(builder.found)
     except yaml.YAMLError as error:
-        builder.say("XEI0603", f"`{_base(file)}` cannot be read as YAML", Span(file, 0, 0), label=str(error).splitlines()[0])
+        builder.say(
+            "XEI0603",
+            f"`{_base(file)}` cannot be read as YAML",
+            Span(file, 0, 0),
+            label=str(error).splitlines()[0],
+        )
         return None, tuple(builder.found)
     root = builder.root
     if not builder.stopped and (root is None or root.kind != "map"):
         span = root.span if root else Span(file, 0, min(1, len(text)))
-        what = "is empty" if root is None or root.scalar is None and root.kind == "scalar" else "is not a mapping of keys to values"
+        what = (
+            "is empty"
+            if root is None or (root.scalar is None and root.kind == "scalar")
+            else "is not a mapping of keys to values"
+        )
         builder.say("XEI0603", f"`{_base(file)}` {what}", span, label="expected keys such as `version: 1`")
     return (root if root and root.kind == "map" and not builder.stopped else None), tuple(builder.found)
 
@@ -84,18 +94,27 @@ class _Builder:
             start = min(error.context_mark.index, len(self.text))
             labels = (Label(Span(self.file, start, start + 1), error.context),)
         self.say(
-            "XEI0603", f"`{_base(self.file)}` is not valid YAML", Span(self.file, at, min(at + 1, len(self.text))),
-            label=error.problem or "", labels=labels,
+            "XEI0603",
+            f"`{_base(self.file)}` is not valid YAML",
+            Span(self.file, at, min(at + 1, len(self.text))),
+            label=error.problem or "",
+            labels=labels,
             help=("check indentation, brackets and quotes just before this place",),
-        )  # fmt: skip
+        )
 
     def _events(self) -> Iterator[yaml.Event]:
         documents = 0
         loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-        for event in yaml.parse(self.text, Loader=loader):
+        parse: Callable[..., Iterator[yaml.Event]] = yaml.parse  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
+        for event in parse(self.text, Loader=loader):
             documents += isinstance(event, yaml.DocumentStartEvent)
             if documents > 1:
-                self.say("XEI0603", "a second document begins here", self._span(event), label="a profile is one document")
+                self.say(
+                    "XEI0603",
+                    "a second document begins here",
+                    self._span(event),
+                    label="a profile is one document",
+                )
                 self.stopped = True
                 return
             yield event
@@ -131,11 +150,13 @@ class _Builder:
         value = read_plain(event.value) if not event.style else event.value
         if isinstance(value, Surprise):
             self.say(
-                "XEI0604", f"`{event.value}` would be read as {value.reads_as}", span,
+                "XEI0604",
+                f"`{event.value}` would be read as {value.reads_as}",
+                span,
                 label="quote it, or say it plainly",
                 notes=(f"YAML 1.1 makes {value.reads_as} of an unquoted `{event.value}`",),
                 help=(f"write {value.write}",),
-            )  # fmt: skip
+            )
             value = event.value
         if top and top.node.kind == "map" and top.key is None:
             self._take_key(top, event.value, span)
@@ -145,14 +166,23 @@ class _Builder:
     def _take_key(self, top: _Open, key: str, span: Span) -> None:
         top.key = key
         if key == "<<":
-            self.say("XEI0605", "a merge key is used", span, label="`<<` copies keys from elsewhere",
-                     help=("write the keys out where they hold",))  # fmt: skip
+            self.say(
+                "XEI0605",
+                "a merge key is used",
+                span,
+                label="`<<` copies keys from elsewhere",
+                help=("write the keys out where they hold",),
+            )
         if key in top.node.keys:
             self.say(
-                "XEI0606", f"`{key}` stands twice", span, label="given again here",
+                "XEI0606",
+                f"`{key}` stands twice",
+                span,
+                label="given again here",
                 labels=(Label(top.node.keys[key], "first given here"),),
-                notes=("YAML would silently keep only the last of them",), help=("keep one of the two",),
-            )  # fmt: skip
+                notes=("YAML would silently keep only the last of them",),
+                help=("keep one of the two",),
+            )
         else:
             top.node.keys[key] = span
 
@@ -176,10 +206,13 @@ class _Builder:
 
     def _refuse(self, event: yaml.Event, what: str, why: str) -> None:
         self.say(
-            "XEI0605", f"{what} is used", self._span(event), label=why,
+            "XEI0605",
+            f"{what} is used",
+            self._span(event),
+            label=why,
             notes=("a profile says everything where it holds, so that a reader sees what a robot will do",),
             help=("write the value out where it is needed",),
-        )  # fmt: skip
+        )
 
 
 def _base(file: str) -> str:

@@ -1,7 +1,7 @@
 """What an unquoted word of a profile means: less than YAML 1.1 makes of it, and no surprise.
 
-YAML 1.1 reads `on` and `yes` as true, `1:30` as 90 (base 60), `010` as 8 and `1_000` as 1000. Here these are refused,
-with the way to write what was meant; dates stay text.
+YAML 1.1 reads `on` and `yes` as true, `1:30` as 90 (base 60), `010` as 8 and `1_000` as 1000. Here these are
+refused, with the way to write what was meant; dates stay text.
 """
 
 from __future__ import annotations
@@ -49,5 +49,7 @@ def _surprise(text: str) -> Surprise | None:
     if _SEXAGESIMAL.fullmatch(text):
         return Surprise("a number in base 60", f'a quantity such as `90 s`, or `"{text}"` for the text')
     if _OTHER_NUMBER.fullmatch(text):
-        return Surprise("a number in a way that readers do not expect", f'the number in plain decimals, or `"{text}"`')
+        return Surprise(
+            "a number in a way that readers do not expect", f'the number in plain decimals, or `"{text}"`'
+        )
     return None

@@ -13,7 +13,8 @@ Path = tuple[str | int, ...]
 
 @dataclass(slots=True)
 class Node:
-    """A value of a file: a mapping (`items`, and in `keys` the place of each key), a list (`elements`) or a `scalar`.
+    """A value of a file: a mapping (`items`, and in `keys` the place of each key), a list (`elements`) or a
+    `scalar`.
 
     `span` covers the value. A tree is built once, by `yaml_reader`, and only read after that.
     """

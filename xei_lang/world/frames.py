@@ -13,10 +13,11 @@ _GRIPPER_START = "closed"
 
 
 def start_state(profile: Profile) -> RobotState:
-    """The robot before anything moves: at the start station, slide as the station says, arms at home, grippers closed.
+    """The robot before anything moves: at the start station, slide as the station says, arms at home,
+    grippers closed.
 
-    Joints are those that can be planned (not fixed, not mimicking), in the description's order; a joint that no state names
-    stands at the point of its range that is nearest to zero.
+    Joints are those that can be planned (not fixed, not mimicking), in the description's order; a joint that
+    no state names stands at the point of its range that is nearest to zero.
     """
     calibration = profile.calibration
     station = next(item for item in calibration.stations if item.name == calibration.start_station)
@@ -33,35 +34,48 @@ def start_state(profile: Profile) -> RobotState:
 def slide_joint(profile: Profile) -> str:
     """The joint that carries the frame `slide`, or an empty name where the calibration has no such frame."""
     link = dict(profile.calibration.robot_frames).get("slide", "")
-    return next((joint.name for joint in profile.robot.joints if joint.child == link and joint.kind == "prismatic"), "")
+    return next(
+        (joint.name for joint in profile.robot.joints if joint.child == link and joint.kind == "prismatic"),
+        "",
+    )
 
 
 def frame_tree(profile: Profile, state: RobotState) -> tuple[Frame, ...]:
     """All frames, sorted by name, with the root `world` left out; the robot's are at `state`.
 
-    Frames that the robot carries hang on `robot_base` by forward kinematics of its description. Loading has made sure
-    that the frames are one tree.
+    Frames that the robot carries hang on `robot_base` by forward kinematics of its description. Loading has
+    made sure that the frames are one tree.
     """
     calibration = profile.calibration
     frames = [
         Frame(
-            frame.name, frame.parent, frame.T_parent_frame, frame.status,
-            frame.position_tolerance_m, frame.rotation_tolerance_rad,
+            frame.name,
+            frame.parent,
+            frame.T_parent_frame,
+            frame.status,
+            frame.position_tolerance_m,
+            frame.rotation_tolerance_rad,
         )
         for frame in calibration.frames
-    ]  # fmt: skip
+    ]
     station = next(item for item in calibration.stations if item.name == state.station)
     joints = dict(state.joints)
     for name, link in calibration.robot_frames:
         if name == "robot_base":
             frames.append(
                 Frame(
-                    name, "world", state.T_world_base, station.status,
-                    calibration.docking_position_tolerance_m, calibration.docking_rotation_tolerance_rad,
+                    name,
+                    "world",
+                    state.T_world_base,
+                    station.status,
+                    calibration.docking_position_tolerance_m,
+                    calibration.docking_rotation_tolerance_rad,
                 )
-            )  # fmt: skip
+            )
         else:
-            frames.append(Frame(name, "robot_base", T_base_link(profile.robot, link, joints), "estimated", 0.0, 0.0))
+            frames.append(
+                Frame(name, "robot_base", T_base_link(profile.robot, link, joints), "estimated", 0.0, 0.0)
+            )
     return tuple(sorted(frames, key=lambda frame: frame.name))
 
 

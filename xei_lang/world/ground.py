@@ -1,6 +1,7 @@
 """World grounding from what is written down: usage-profile priors first, then system objects.
 
-Each field of each object says which source gave it. What the robot sees later replaces priors; nothing here does.
+Each field of each object says which source gave it. What the robot sees later replaces priors; nothing here
+does.
 """
 
 from __future__ import annotations
@@ -49,13 +50,18 @@ def _grounded(item: LabObject, frame: str, pose: Pose) -> WorldObject:
         movable="movable" in item.roles,
         states=tuple((state.name, state.initial) for state in item.states),
         metadata=tuple((f"asset.{name}", path or "missing") for name, path in item.assets),
-        provenance=tuple((name, f"{source} prior" if name in ("pose", "confidence") else source) for name in fields),
+        provenance=tuple(
+            (name, f"{source} prior" if name in ("pose", "confidence") else source) for name in fields
+        ),
     )
 
 
 def _unplaced(item: LabObject) -> Diagnostic:
     return Diagnostic(
-        "XEI0660", f"no source says where `{item.name}` is", item.span, label="has no `prior`",
+        "XEI0660",
+        f"no source says where `{item.name}` is",
+        item.span,
+        label="has no `prior`",
         notes=("a protocol that uses it needs a source that places it",),
         help=("add a `prior`, such as `{frame: table, position: [0.1 m, 0 m, 0 m], confidence: 0.6}`",),
-    )  # fmt: skip
+    )

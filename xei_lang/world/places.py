@@ -44,7 +44,9 @@ def spots(item: LabObject) -> tuple[PlaceRef, ...]:
 
 
 def has_place(item: LabObject, place: PlaceRef) -> bool:
-    """Whether the object has this place; every object with the role `surface` or `place_target` has its surface."""
+    """Whether the object has this place; every object with the role `surface` or `place_target` has its
+    surface.
+    """
     if place.kind == "slot":
         return item.slots is not None and grids.slot_cell(item.slots, place.key) is not None
     if place.kind == "spot":
@@ -90,7 +92,9 @@ def initial_occupant(profile: Profile, place: PlaceRef) -> str | None:
 
 
 def accepts(item: LabObject, place: PlaceRef, roles: tuple[str, ...]) -> bool:
-    """Whether a place takes an object of these roles: a slot asks for one of its `accepts`, other places for nothing."""
+    """Whether a place takes an object of these roles: a slot asks for one of its `accepts`, other places for
+    nothing.
+    """
     if place.kind != "slot" or item.slots is None:
         return True
     return any(role in item.slots.accepts for role in roles)

@@ -1,4 +1,6 @@
-"""What no single file of a profile can be judged by: names across files, templates, geometry. One concern a file."""
+"""What no single file of a profile can be judged by: names across files, templates, geometry. One concern a
+file.
+"""
 
 from __future__ import annotations
 

@@ -9,12 +9,16 @@ from xei_lang.profiles.grid import T_frame_object, T_world_frame
 from xei_lang.profiles.model import LabObject, Profile, SlotGrid
 
 FIT_M = 0.0005
-"""A bore must exceed what goes in by this much: catalogue diameters of tubes and bores hold to about half a millimetre."""
+"""A bore must exceed what goes in by this much: catalogue diameters of tubes and bores hold to about half a
+millimetre.
+"""
 _SLACK_M = 1e-6
 
 
 def check_geometry(profile: Profile) -> Iterator[Diagnostic]:
-    """Slots against their object and against what they accept, vessels, tables, and objects below their table."""
+    """Slots against their object and against what they accept, vessels, tables, and objects below their
+    table.
+    """
     for item in profile.objects:
         if item.slots is not None:
             yield from _slots(item, item.slots)
@@ -26,22 +30,44 @@ def check_geometry(profile: Profile) -> Iterator[Diagnostic]:
 
 def _slots(item: LabObject, grid: SlotGrid) -> Iterator[Diagnostic]:
     if grid.depth_m > grid.origin_m[2] + _SLACK_M:
-        yield _wrong(item, grid, "are deeper than it is", f"{_mm(grid.depth_m)} deep, mouths {_mm(grid.origin_m[2])} above the bottom")
+        yield _wrong(
+            item,
+            grid,
+            "are deeper than it is",
+            f"{_mm(grid.depth_m)} deep, mouths {_mm(grid.origin_m[2])} above the bottom",
+        )
     if grid.origin_m[2] > item.size_m[2] + _SLACK_M:
-        yield _wrong(item, grid, "have mouths above its top", f"{_mm(grid.origin_m[2])}, and it is {_mm(item.size_m[2])} high")
+        yield _wrong(
+            item,
+            grid,
+            "have mouths above its top",
+            f"{_mm(grid.origin_m[2])}, and it is {_mm(item.size_m[2])} high",
+        )
     counts = (grid.columns, len(grid.rows))
     for axis, name in enumerate("xy"):
         if counts[axis] > 1 and grid.pitch_m[axis] < grid.bore_m:
-            yield _wrong(item, grid, "run into each other", f"pitch {_mm(grid.pitch_m[axis])}, bore {_mm(grid.bore_m)}")
+            yield _wrong(
+                item, grid, "run into each other", f"pitch {_mm(grid.pitch_m[axis])}, bore {_mm(grid.bore_m)}"
+            )
         first = grid.origin_m[axis] - grid.bore_m / 2
         last = grid.origin_m[axis] + (counts[axis] - 1) * grid.pitch_m[axis] + grid.bore_m / 2
         if first < -_SLACK_M or last > item.size_m[axis] + _SLACK_M:
-            yield _wrong(item, grid, "reach past its edge", f"{_mm(first)} .. {_mm(last)} along {name}, it is {_mm(item.size_m[axis])}")
+            yield _wrong(
+                item,
+                grid,
+                "reach past its edge",
+                f"{_mm(first)} .. {_mm(last)} along {name}, it is {_mm(item.size_m[axis])}",
+            )
 
 
 def _wrong(item: LabObject, grid: SlotGrid, what: str, label: str) -> Diagnostic:
-    return Diagnostic("XEI0640", f"the slots of `{item.name}` {what}", grid.span, label=label,
-                      help=("measure slots and object again, and correct the one that is wrong",))  # fmt: skip
+    return Diagnostic(
+        "XEI0640",
+        f"the slots of `{item.name}` {what}",
+        grid.span,
+        label=label,
+        help=("measure slots and object again, and correct the one that is wrong",),
+    )
 
 
 def _bores(profile: Profile, item: LabObject, grid: SlotGrid) -> Iterator[Diagnostic]:
@@ -49,11 +75,14 @@ def _bores(profile: Profile, item: LabObject, grid: SlotGrid) -> Iterator[Diagno
         width = max(other.size_m[0], other.size_m[1])
         if set(other.roles) & set(grid.accepts) and width + FIT_M > grid.bore_m + _SLACK_M:
             yield Diagnostic(
-                "XEI0640", f"`{other.name}` is too wide for the slots of `{item.name}` that accept it", grid.span,
-                label=f"bore {_mm(grid.bore_m)}", labels=(Label(other.span, f"{_mm(width)} wide"),),
+                "XEI0640",
+                f"`{other.name}` is too wide for the slots of `{item.name}` that accept it",
+                grid.span,
+                label=f"bore {_mm(grid.bore_m)}",
+                labels=(Label(other.span, f"{_mm(width)} wide"),),
                 notes=(f"a bore must be {_mm(FIT_M)} wider than what it accepts: sizes hold to about that",),
-                help=(f"correct the sizes, or take the role out of the slots' `accepts`",),
-            )  # fmt: skip
+                help=("correct the sizes, or take the role out of the slots' `accepts`",),
+            )
 
 
 def _vessel(item: LabObject) -> Iterator[Diagnostic]:
@@ -61,11 +90,19 @@ def _vessel(item: LabObject) -> Iterator[Diagnostic]:
     if liquid is None:
         return
     if liquid.dead_volume_m3 >= liquid.capacity_m3:
-        yield Diagnostic("XEI0640", f"`{item.name}` can give back nothing of what it holds", item.span,
-                         label="its `dead_volume` is not below its `capacity`")  # fmt: skip
+        yield Diagnostic(
+            "XEI0640",
+            f"`{item.name}` can give back nothing of what it holds",
+            item.span,
+            label="its `dead_volume` is not below its `capacity`",
+        )
     if liquid.inner_diameter_m >= min(item.size_m[0], item.size_m[1]):
-        yield Diagnostic("XEI0640", f"`{item.name}` is wider inside than outside", item.span,
-                         label=f"inner diameter {_mm(liquid.inner_diameter_m)}, outer {_mm(min(item.size_m[:2]))}")  # fmt: skip
+        yield Diagnostic(
+            "XEI0640",
+            f"`{item.name}` is wider inside than outside",
+            item.span,
+            label=f"inner diameter {_mm(liquid.inner_diameter_m)}, outer {_mm(min(item.size_m[:2]))}",
+        )
 
 
 def _below(profile: Profile, item: LabObject) -> Iterator[Diagnostic]:
@@ -76,8 +113,13 @@ def _below(profile: Profile, item: LabObject) -> Iterator[Diagnostic]:
         return
     height = placed[1].position_m[2]
     if height < -_SLACK_M:
-        yield Diagnostic("XEI0643", f"`{item.name}` would stand {_mm(-height)} below the top of `{placed[0]}`", item.prior.span,
-                         label="expected a height of 0 or above", notes=("an object's frame is at its bottom",))  # fmt: skip
+        yield Diagnostic(
+            "XEI0643",
+            f"`{item.name}` would stand {_mm(-height)} below the top of `{placed[0]}`",
+            item.prior.span,
+            label="expected a height of 0 or above",
+            notes=("an object's frame is at its bottom",),
+        )
 
 
 def _table(profile: Profile) -> Iterator[Diagnostic]:
@@ -90,8 +132,12 @@ def _table(profile: Profile) -> Iterator[Diagnostic]:
         return
     height = T_world_table.position_m[2]
     if abs(height - calibration.table_height_m) > max(frame.position_tolerance_m, _SLACK_M):
-        yield Diagnostic("XEI0640", f"the frame `{frame.name}` and the table's height disagree", frame.span,
-                         label=f"{_mm(height)} up, and `table` says {_mm(calibration.table_height_m)}")  # fmt: skip
+        yield Diagnostic(
+            "XEI0640",
+            f"the frame `{frame.name}` and the table's height disagree",
+            frame.span,
+            label=f"{_mm(height)} up, and `table` says {_mm(calibration.table_height_m)}",
+        )
 
 
 def _mm(length_m: float) -> str:

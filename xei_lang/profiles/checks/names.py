@@ -9,23 +9,38 @@ from xei_lang.profiles.checks.unknown import unknown
 from xei_lang.profiles.model import LabObject, Profile
 
 OPERATION_PARAMETERS = (
-    "approach_height", "approach_speed", "grasp_depth", "grasp_width", "insertion_depth", "jaw_clearance", "lift",
-    "open_width", "release_width", "standoff",
-)  # fmt: skip
+    "approach_height",
+    "approach_speed",
+    "grasp_depth",
+    "grasp_width",
+    "insertion_depth",
+    "jaw_clearance",
+    "lift",
+    "open_width",
+    "release_width",
+    "standoff",
+)
 """What the planner of operations computes; a skill bank may add its own under `parameters`."""
 
 
 def check_names(profile: Profile) -> Iterator[Diagnostic]:
-    """Roles, skills, states and operation parameters that objects name; names and aliases that are not unique."""
+    """Roles, skills, states and operation parameters that objects name; names and aliases that are not
+    unique.
+    """
     yield from _unique(profile)
     roles = sorted({role for item in profile.objects for role in item.roles})
     skills = [skill.name for skill in profile.bank.skills]
-    parameters = {*OPERATION_PARAMETERS, *(item.name for skill in profile.bank.skills for item in skill.parameters)}
+    parameters = {
+        *OPERATION_PARAMETERS,
+        *(item.name for skill in profile.bank.skills for item in skill.parameters),
+    }
     for item in profile.objects:
         yield from (unknown("a skill", name, skills, item.span) for name in item.skills if name not in skills)
         accepts = item.slots.accepts if item.slots else ()
         span = item.slots.span if item.slots else item.span
-        yield from (unknown("a role of any object", role, roles, span) for role in accepts if role not in roles)
+        yield from (
+            unknown("a role of any object", role, roles, span) for role in accepts if role not in roles
+        )
         for default in item.grasp:
             if default.name not in parameters:
                 yield unknown("an operation parameter", default.name, sorted(parameters), default.span)
@@ -50,11 +65,14 @@ def _unique(profile: Profile) -> Iterator[Diagnostic]:
 
 def _twice(name: str, span: Span, first: Span, what: str) -> Diagnostic:
     return Diagnostic(
-        "XEI0621", f"`{name}` names two things", span, label=f"names {what} here",
+        "XEI0621",
+        f"`{name}` names two things",
+        span,
+        label=f"names {what} here",
         labels=(Label(first, "and another one here"),),
         notes=("names and aliases must be unique, because protocols and requests choose by them",),
         help=("rename one of the two",),
-    )  # fmt: skip
+    )
 
 
 def _states(item: LabObject) -> Iterator[Diagnostic]:
@@ -69,5 +87,8 @@ def _hazards(profile: Profile) -> Iterator[Diagnostic]:
         for name in pair:
             if name not in known:
                 shown = ", ".join(f"`{hazard}`" for hazard in known)
-                yield Diagnostic("XEI0620", f"no liquid of this profile has the hazard `{name}`",
-                                 help=(f"hazards of liquids are {shown}",))  # fmt: skip
+                yield Diagnostic(
+                    "XEI0620",
+                    f"no liquid of this profile has the hazard `{name}`",
+                    help=(f"hazards of liquids are {shown}",),
+                )

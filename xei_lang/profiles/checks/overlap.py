@@ -1,7 +1,7 @@
 """Objects whose priors put them into each other.
 
-Boxes and cylinders that stand upright are tested exactly in the plane; parts that are tilted are left to the collision
-checks of motion. An object may overlap what it stands in.
+Boxes and cylinders that stand upright are tested exactly in the plane; parts that are tilted are left to the
+collision checks of motion. An object may overlap what it stands in.
 """
 
 from __future__ import annotations
@@ -21,7 +21,9 @@ TOUCH_M = 1e-4
 
 @dataclass(frozen=True, slots=True)
 class Upright:
-    """A solid that stands upright in `world`: a footprint (a disc, or a rectangle turned by `yaw_rad`) over a range of z."""
+    """A solid that stands upright in `world`: a footprint (a disc, or a rectangle turned by `yaw_rad`) over a
+    range of z.
+    """
 
     x_m: float
     y_m: float
@@ -49,10 +51,13 @@ def _diagnostic(first: LabObject, second: LabObject, depth_m: float) -> Diagnost
     span = mover.prior.span if mover.prior else mover.span
     other_span = other.prior.span if other.prior else other.span
     return Diagnostic(
-        "XEI0642", f"`{mover.name}` and `{other.name}` stand in each other", span,
-        label=f"overlaps by {round(depth_m * 1000, 1):g} mm", labels=(Label(other_span, f"`{other.name}` stands here"),),
-        help=(f"move one of the two, or correct its size",),
-    )  # fmt: skip
+        "XEI0642",
+        f"`{mover.name}` and `{other.name}` stand in each other",
+        span,
+        label=f"overlaps by {round(depth_m * 1000, 1):g} mm",
+        labels=(Label(other_span, f"`{other.name}` stands here"),),
+        help=("move one of the two, or correct its size",),
+    )
 
 
 def _solids(profile: Profile, item: LabObject) -> tuple[Upright, ...]:
@@ -71,18 +76,26 @@ def _solids(profile: Profile, item: LabObject) -> tuple[Upright, ...]:
         height = shape.size_m[2] if isinstance(shape, Box) else shape.height_m
         half = (shape.size_m[0] / 2, shape.size_m[1] / 2) if isinstance(shape, Box) else (0.0, 0.0)
         radius = shape.radius_m if isinstance(shape, Cylinder) else 0.0
-        found.append(Upright(x, y, z - height / 2, z + height / 2, math.atan2(x_axis[1], x_axis[0]), half, radius))
+        found.append(
+            Upright(x, y, z - height / 2, z + height / 2, math.atan2(x_axis[1], x_axis[0]), half, radius)
+        )
     return tuple(found)
 
 
 def overlap_m(a: Upright, b: Upright) -> float:
-    """How deep two upright solids stand in each other, along the best direction to part them; at most 0 where apart.
+    """How deep two upright solids stand in each other, along the best direction to part them; at most 0 where
+    apart.
 
-    A disc is a rectangle of zero size with a rounding radius. Footprints are parted along the rectangles' axes and, for
-    a disc, also along the direction from the other footprint's nearest point (the separating axis theorem).
+    A disc is a rectangle of zero size with a rounding radius. Footprints are parted along the rectangles'
+    axes and, for a disc, also along the direction from the other footprint's nearest point (the separating
+    axis theorem).
     """
     vertical = min(a.upper_m, b.upper_m) - max(a.lower_m, b.lower_m)
-    axes = [(math.cos(yaw), math.sin(yaw)) for solid in (a, b) for yaw in (solid.yaw_rad, solid.yaw_rad + math.pi / 2)]
+    axes = [
+        (math.cos(yaw), math.sin(yaw))
+        for solid in (a, b)
+        for yaw in (solid.yaw_rad, solid.yaw_rad + math.pi / 2)
+    ]
     for disc, other in ((a, b), (b, a)):
         if disc.radius_m > 0.0:
             near = _nearest(other, disc.x_m, disc.y_m)

@@ -15,7 +15,11 @@ from xei_lang.profiles.model import Profile, SkillSpec, TemplateStep
 from xei_lang.syntax import ast
 
 POINTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
-    {"object": ("pregrasp", "grasp", "lift"), "Place": ("above", "place", "retreat"), "Station": ("ground_frame",)}
+    {
+        "object": ("pregrasp", "grasp", "lift"),
+        "Place": ("above", "place", "retreat"),
+        "Station": ("ground_frame",),
+    }
 )
 """Points of an operation, by the type of the argument that they belong to."""
 
@@ -46,7 +50,11 @@ def check_skills(profile: Profile) -> Iterator[Diagnostic]:
             yield unknown("an owner", skill.owner, profile.bank.owners, skill.span)
         for arg in skill.args:
             names = [node for node in ast.walk(arg.roles) if isinstance(node, ast.Role)] if arg.roles else []
-            yield from (unknown("a role of any object", role.id, roles, role.span, "XEI0625") for role in names if role.id not in roles)
+            yield from (
+                unknown("a role of any object", role.id, roles, role.span, "XEI0625")
+                for role in names
+                if role.id not in roles
+            )
         yield from _contract(skill)
         yield from _phrases(skill)
         for step in skill.template:
@@ -59,7 +67,11 @@ def _contract(skill: SkillSpec) -> Iterator[Diagnostic]:
         for node in ast.walk(rule.predicate):
             if isinstance(node, ast.CallExpr):
                 subjects = [arg.value for arg in node.args if isinstance(arg.value, ast.Name)]
-                yield from (_no_argument(skill, name.id, names, name.span) for name in subjects if name.id not in names)
+                yield from (
+                    _no_argument(skill, name.id, names, name.span)
+                    for name in subjects
+                    if name.id not in names
+                )
 
 
 def _phrases(skill: SkillSpec) -> Iterator[Diagnostic]:
@@ -78,21 +90,35 @@ def _step(profile: Profile, skill: SkillSpec, step: TemplateStep) -> Iterator[Di
             yield unknown(f"a field of `{step.kind}`", name, (*required, *optional), step.span, "XEI0623")
     for name in required:
         if name not in given:
-            yield Diagnostic("XEI0623", f"`{step.kind}` in the template of `{skill.name}` has no `{name}`", step.span,
-                             label=f"expected `{name}`", help=(f"add `{name}: ...`",))  # fmt: skip
+            yield Diagnostic(
+                "XEI0623",
+                f"`{step.kind}` in the template of `{skill.name}` has no `{name}`",
+                step.span,
+                label=f"expected `{name}`",
+                help=(f"add `{name}: ...`",),
+            )
     if step.kind == "move_to" and ("configuration" in given) == ("at" in given):
-        yield Diagnostic("XEI0623", f"`move_to` in the template of `{skill.name}` needs one target", step.span,
-                         label="expected `at` with `tool`, or `configuration`")  # fmt: skip
+        yield Diagnostic(
+            "XEI0623",
+            f"`move_to` in the template of `{skill.name}` needs one target",
+            step.span,
+            label="expected `at` with `tool`, or `configuration`",
+        )
     for name, value in step.fields:
         if isinstance(value, str):
             yield from _value(profile, skill, step, name, value)
 
 
-def _value(profile: Profile, skill: SkillSpec, step: TemplateStep, field: str, value: str) -> Iterator[Diagnostic]:
+def _value(
+    profile: Profile, skill: SkillSpec, step: TemplateStep, field: str, value: str
+) -> Iterator[Diagnostic]:
     """Whether a word of a template names what its field takes."""
     args = {arg.name: arg.type for arg in skill.args}
     states = sorted({state.name for state in profile.robot.states})
-    of_type = {kind: [name for name, type_ in args.items() if type_ == kind] for kind in ("Arm", "object", "Place", "Station")}
+    of_type = {
+        kind: [name for name, type_ in args.items() if type_ == kind]
+        for kind in ("Arm", "object", "Place", "Station")
+    }
     known: list[str] | None = {
         "tool": [*of_type["Arm"], *profile.bank.arms],
         "arm": [*of_type["Arm"], *profile.bank.arms],
@@ -113,7 +139,9 @@ def _value(profile: Profile, skill: SkillSpec, step: TemplateStep, field: str, v
         known = [f"{name}.{point}" for name, type_ in args.items() for point in POINTS.get(type_, ())]
         known += frames if field == "frame" else []
     if known is not None and value not in known:
-        yield unknown(f"a `{field}` that the template of `{skill.name}` can use", value, known, step.span, "XEI0623")
+        yield unknown(
+            f"a `{field}` that the template of `{skill.name}` can use", value, known, step.span, "XEI0623"
+        )
 
 
 def _no_argument(skill: SkillSpec, name: str, names: list[str], span: Span) -> Diagnostic:

@@ -12,4 +12,6 @@ def unknown(what: str, name: str, known: Sequence[str], span: Span, code: str = 
     near = did_you_mean(name, known)
     shown = ", ".join(f"`{item}`" for item in sorted(known)[:12]) + (" ..." if len(known) > 12 else "")
     help_ = f"did you mean `{near[0]}`?" if near else f"known are {shown}" if known else "there is none"
-    return Diagnostic(code, f"`{name}` is not {what} of this profile", span, label=f"expected {what}", help=(help_,))
+    return Diagnostic(
+        code, f"`{name}` is not {what} of this profile", span, label=f"expected {what}", help=(help_,)
+    )

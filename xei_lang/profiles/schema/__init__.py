@@ -1,1 +1,3 @@
-"""The shape of each profile as a pydantic model. Imported only when a profile has changed, or to publish its JSON Schema."""
+"""The shape of each profile as a pydantic model. Imported only when a profile has changed, or to publish its
+JSON Schema.
+"""

@@ -7,9 +7,25 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from xei_lang.profiles.schema.values import (
-    Angle, AngleVector, AngularSpeed, Bounds, Force, JointAcceleration, JointPosition, JointVelocity, Length,
-    LengthVector, Mass, Model, Name, Speed, Status, Text, Tolerance, Torque,
-)  # fmt: skip
+    Angle,
+    AngleVector,
+    AngularSpeed,
+    Bounds,
+    Force,
+    JointAcceleration,
+    JointPosition,
+    JointVelocity,
+    Length,
+    LengthVector,
+    Mass,
+    Model,
+    Name,
+    Speed,
+    Status,
+    Text,
+    Tolerance,
+    Torque,
+)
 
 
 class FrameModel(Model):
@@ -47,7 +63,7 @@ class BasePoseModel(Model):
 class StationModel(Model):
     """A scene origin: a stand of the base from which a bench is worked."""
 
-    aliases: list[Text] = []
+    aliases: list[Text] = Field(default=[])
     base: BasePoseModel
     status: Status
     ground_frame: Name
@@ -63,7 +79,7 @@ class DockingModel(Model):
     remark: Text
 
 
-class BaseModelLimits(Model):
+class MobileBaseModel(Model):
     """The mobile base."""
 
     speed: Speed
@@ -146,7 +162,7 @@ class CalibrationProfile(Model):
     limits: list[LimitModel]
     start_station: Name
     stations: dict[Name, StationModel]
-    base: BaseModelLimits
+    base: MobileBaseModel
     table: TableModel
     workspace: Bounds
     payload: Mass
@@ -154,5 +170,5 @@ class CalibrationProfile(Model):
     clearance: Length
     map: MapModel
     apriltags: TagsModel
-    cameras: dict[Name, CameraModel] = {}
-    lidars: dict[Name, LidarModel] = {}
+    cameras: dict[Name, CameraModel] = Field(default={})
+    lidars: dict[Name, LidarModel] = Field(default={})

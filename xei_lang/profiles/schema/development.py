@@ -2,46 +2,81 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field, PlainValidator, WithJsonSchema
-from pydantic_core import PydanticCustomError
+from pydantic import Field
+from pydantic_core import CoreSchema, core_schema
 
-from xei_lang.profiles.schema.values import AnyQuantity, Model, Name, OperationValue, Text, _read
+from xei_lang.profiles.schema.values import (
+    AnyQuantity,
+    Model,
+    Name,
+    OperationValue,
+    Text,
+    quantity_error,
+    read_quantity,
+)
 from xei_lang.quantity.dimension import TIME
 
-ARG_TYPES = (
-    "object", "Place", "Station", "Arm", "Volume", "Length", "Mass", "Time", "Temperature", "TemperatureDifference", "Angle",
-    "Speed", "AngularSpeed", "Force", "Acceleration", "Frequency", "Flow", "Amount", "CentrifugalForce", "Concentration",
-    "Int", "Float", "Bool", "String", "choice",
-)  # fmt: skip
-
-
-def _duration(value: object) -> tuple[float, float]:
-    """`4 s .. 30 s` as seconds."""
-    ends = value.split("..") if isinstance(value, str) else []
-    if len(ends) != 2:
-        context = {"text": str(value), "help": "write the shortest and the longest, such as `4 s .. 30 s`"}
-        raise PydanticCustomError("quantity", "`{text}` is not a range of durations", context)
-    lower, upper = (_read(end.strip(), "4 s") for end in ends)
-    if lower.dimension != TIME or upper.dimension != TIME or lower > upper:
-        context = {"text": str(value), "help": "write the shorter time first, such as `4 s .. 30 s`"}
-        raise PydanticCustomError("quantity", "`{text}` is not a range of durations", context)
-    return lower.si, upper.si
-
-
-Duration = Annotated[
-    tuple[float, float], PlainValidator(_duration), WithJsonSchema({"type": "string", "description": "such as `4 s .. 30 s`"})
+ArgType = Literal[
+    "object",
+    "Place",
+    "Station",
+    "Arm",
+    "Volume",
+    "Length",
+    "Mass",
+    "Time",
+    "Temperature",
+    "TemperatureDifference",
+    "Angle",
+    "Speed",
+    "AngularSpeed",
+    "Force",
+    "Acceleration",
+    "Frequency",
+    "Flow",
+    "Amount",
+    "CentrifugalForce",
+    "Concentration",
+    "Int",
+    "Float",
+    "Bool",
+    "String",
+    "choice",
 ]
+
+
+class DurationRange:
+    """Marks the shortest and the longest time that something takes: `4 s .. 30 s`, in seconds."""
+
+    def read(self, value: object) -> tuple[float, float]:
+        """Both ends in seconds."""
+        ends = value.split("..") if isinstance(value, str) else []
+        if len(ends) == 2:
+            lower, upper = (read_quantity(end.strip(), "4 s") for end in ends)
+            if lower.dimension == upper.dimension == TIME and lower <= upper:
+                return lower.si, upper.si
+        way_out = "write the shorter time first, such as `4 s .. 30 s`"
+        raise quantity_error(f"`{value}` is not a range of durations", way_out)
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.read)
+
+    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
+        return {"type": "string", "description": "shortest and longest time, such as `4 s .. 30 s`"}
+
+
+Duration = Annotated[tuple[float, float], DurationRange()]
 
 
 class ArgModel(Model):
     """An argument of a skill. Without a default it is required."""
 
-    type: Literal[ARG_TYPES]  # type: ignore[valid-type]
+    type: ArgType
     roles: Text | None = None
-    places: list[Literal["slot", "spot", "surface"]] = []
-    choices: list[Name] = []
+    places: list[Literal["slot", "spot", "surface"]] = Field(default=[])
+    choices: list[Name] = Field(default=[])
     min: AnyQuantity | int | float | None = None
     max: AnyQuantity | int | float | None = None
     default: str | int | float | bool | None = None
@@ -52,15 +87,15 @@ class SkillModel(Model):
 
     owner: Name
     summary: Text
-    args: dict[Name, ArgModel] = {}
+    args: dict[Name, ArgModel] = Field(default={})
     exposed: bool
-    requires: list[Text] = []
-    ensures: list[Text] = []
+    requires: list[Text] = Field(default=[])
+    ensures: list[Text] = Field(default=[])
     duration: Duration
-    unsupported: list[Text] = []
+    unsupported: list[Text] = Field(default=[])
     process: Text
-    phrases: list[Text] = []
-    parameters: dict[Name, OperationValue] = {}
+    phrases: list[Text] = Field(default=[])
+    parameters: dict[Name, OperationValue] = Field(default={})
     template: list[dict[Name, dict[Name, str | int | float | bool]]] = Field(min_length=1)
 
 

@@ -7,8 +7,19 @@ from typing import Literal
 from pydantic import Field
 
 from xei_lang.profiles.schema.values import (
-    AngleVector, Count, Fraction01, Length, LengthVector, Mass, Model, Name, OperationValue, Text, Volume,
-)  # fmt: skip
+    AngleVector,
+    Count,
+    Fraction01,
+    Length,
+    LengthPair,
+    LengthVector,
+    Mass,
+    Model,
+    Name,
+    OperationValue,
+    Text,
+    Volume,
+)
 
 
 class CylinderSize(Model):
@@ -48,11 +59,13 @@ class StateModel(Model):
 
 
 class SlotsModel(Model):
-    """A grid of slots; `origin` is the mouth of the first one from the corner with the smallest x and y, z from the bottom."""
+    """A grid of slots; `origin` is the mouth of the first one from the corner with the smallest x and y, z
+    from the bottom.
+    """
 
     rows: list[str] = Field(min_length=1, max_length=100)
     columns: Count
-    pitch: list[Length] = Field(min_length=2, max_length=2)
+    pitch: LengthPair
     origin: LengthVector
     bore: Length
     chamfer: Length
@@ -70,8 +83,8 @@ class SpotModel(Model):
 class ElementModel(Model):
     """An element of a touch screen, from the screen's bottom left corner: right and up."""
 
-    center: list[Length] = Field(min_length=2, max_length=2)
-    size: list[Length] = Field(min_length=2, max_length=2)
+    center: LengthPair
+    size: LengthPair
 
 
 class PriorModel(Model):
@@ -94,26 +107,26 @@ class AssetsModel(Model):
 class ObjectModel(Model):
     """An object: its frame is at its bottom centre, z up."""
 
-    aliases: list[Text] = []
+    aliases: list[Text] = Field(default=[])
     roles: list[Name] = Field(min_length=1)
     shape: ShapeModel
     collision: list[PartModel] | None = None
     assets: AssetsModel = AssetsModel()
     mass: Mass | None = None
     liquid: LiquidModel | None = None
-    states: dict[Name, StateModel] = {}
-    skills: list[Name] = []
-    grasp: dict[Name, OperationValue] = {}
+    states: dict[Name, StateModel] = Field(default={})
+    skills: list[Name] = Field(default=[])
+    grasp: dict[Name, OperationValue] = Field(default={})
     slots: SlotsModel | None = None
-    spots: dict[Name, SpotModel] = {}
-    elements: dict[Name, ElementModel] = {}
+    spots: dict[Name, SpotModel] = Field(default={})
+    elements: dict[Name, ElementModel] = Field(default={})
     prior: PriorModel | None = None
 
 
 class LiquidKindModel(Model):
     """A liquid by its name in protocols."""
 
-    hazards: list[Name] = []
+    hazards: list[Name] = Field(default=[])
 
 
 class UsageProfile(Model):
@@ -121,5 +134,5 @@ class UsageProfile(Model):
 
     version: Literal[1]
     objects: dict[Name, ObjectModel]
-    liquids: dict[Name, LiquidKindModel] = {}
-    incompatible: list[list[Name]] = []
+    liquids: dict[Name, LiquidKindModel] = Field(default={})
+    incompatible: list[list[Name]] = Field(default=[])
