@@ -56,7 +56,12 @@ class Binder:
     """Gives declared parameters and objects their values."""
 
     def __init__(
-        self, registry: Registry, evaluator: Evaluator, types: Types, reporter: Reporter, options: CheckOptions
+        self,
+        registry: Registry,
+        evaluator: Evaluator,
+        types: Types,
+        reporter: Reporter,
+        options: CheckOptions,
     ) -> None:
         self._registry = registry
         self._evaluator = evaluator
@@ -69,7 +74,10 @@ class Binder:
         known = tuple(declared)
         objects = tuple(item.name.id for item in known if isinstance(item, ObjectDecl))
         params = tuple(item.name.id for item in known if isinstance(item, Param))
-        for flag, given, names in (("bind", self._options.bindings, objects), ("param", self._options.params, params)):
+        for flag, given, names in (
+            ("bind", self._options.bindings, objects),
+            ("param", self._options.params, params),
+        ):
             for name in sorted(given.keys() - set(names)):
                 noun = "object" if flag == "bind" else "parameter"
                 self._reporter.report(
@@ -86,7 +94,9 @@ class Binder:
 
     def param(self, node: Param, scope: Scope, state: State) -> None:
         """Declare a parameter of the protocol."""
-        expected = declared_expectation(node.type, f"parameter `{node.name.id}`", self._registry, self._reporter)
+        expected = declared_expectation(
+            node.type, f"parameter `{node.name.id}`", self._registry, self._reporter
+        )
         value = POISON if expected is None else self._param(node, expected, scope, state)
         scope.declare(node.name, "param", value, self._reporter)
 
@@ -239,7 +249,11 @@ class Binder:
 
     def _read_number(self, given: str) -> Val:
         try:
-            return number(Fraction(given)) if "/" not in given and "e" not in given.lower() else _not_plain(given)
+            return (
+                number(Fraction(given))
+                if "/" not in given and "e" not in given.lower()
+                else _not_plain(given)
+            )
         except ValueError:
             return _not_plain(given)
 
@@ -248,7 +262,9 @@ class Binder:
         thing = self._registry.objects.get(owner)
         if thing is None:
             close = did_you_mean(owner, self._registry.objects)
-            raise ValueError(f"there is no object `{owner}`" + (f"; did you mean `{close[0]}`?" if close else ""))
+            raise ValueError(
+                f"there is no object `{owner}`" + (f"; did you mean `{close[0]}`?" if close else "")
+            )
         if not dot:
             return ObjectValue(owner, thing)
         for kind in ("slot", "spot"):
@@ -256,22 +272,33 @@ class Binder:
                 return PlaceValue(ObjectValue(owner, thing), kind, rest[len(kind) + 2 : -2])
         raise ValueError('a place is written as `rack_1.slot("A1")`')
 
-    def limits(self, node: Range | None, expected: Expectation, scope: Scope, state: State) -> Interval | Poison | None:
+    def limits(
+        self, node: Range | None, expected: Expectation, scope: Scope, state: State
+    ) -> Interval | Poison | None:
         """The bounds of `in A .. B`, of the parameter's own type."""
         if node is None:
             return None
         if node.step is not None:
-            self._reporter.report("XEI0305", "the range of a parameter has no step", node.step.span, "leave it out")
+            self._reporter.report(
+                "XEI0305", "the range of a parameter has no step", node.step.span, "leave it out"
+            )
         ends = [
             self._types.coerce(self._evaluator.value(part, scope), expected, part, state)
             for part in (node.lower, node.upper)
         ]
         low, high = ends
-        if isinstance(low, Interval) or isinstance(high, Interval) or not all(map(arithmetic.is_numeric, ends)):
+        if (
+            isinstance(low, Interval)
+            or isinstance(high, Interval)
+            or not all(map(arithmetic.is_numeric, ends))
+        ):
             return POISON
         if arithmetic.compare(">", low, high):
             self._reporter.report(
-                "XEI0308", f"the range `{show(low)} .. {show(high)}` is empty", node.span, "the ends are swapped"
+                "XEI0308",
+                f"the range `{show(low)} .. {show(high)}` is empty",
+                node.span,
+                "the ends are swapped",
             )
             return POISON
         return Interval(low, high, low)  # type: ignore[arg-type]
@@ -282,7 +309,9 @@ class Binder:
             return value
         low, high = (value.lower, value.upper) if isinstance(value, Interval) else (value, value)
         try:
-            outside = arithmetic.compare("<", low, limits.lower) or arithmetic.compare(">", high, limits.upper)
+            outside = arithmetic.compare("<", low, limits.lower) or arithmetic.compare(
+                ">", high, limits.upper
+            )
         except DimensionError:
             return POISON
         if not outside:

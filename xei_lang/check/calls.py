@@ -65,7 +65,9 @@ class Calls:
         self._reporter = reporter
         self._prepared: dict[str, _Prepared] = {}
 
-    def check(self, call: Call, scope: Scope, state: State, procedures: tuple[str, ...]) -> CheckedCall | None:
+    def check(
+        self, call: Call, scope: Scope, state: State, procedures: tuple[str, ...]
+    ) -> CheckedCall | None:
         """The call with its arguments resolved as they are at this point of the plan; None where it does not hold."""
         skill = self._skill(call, procedures)
         if skill is None:
@@ -113,7 +115,10 @@ class Calls:
                 f"this robot has no `{skill.owner}`, which `{name}` needs",
                 call.callee.span,
                 f"performed by `{skill.owner}`",
-                notes=(self._reporter.rule(skill.span), f"this robot has {listed(self._registry.owners, 12)}"),
+                notes=(
+                    self._reporter.rule(skill.span),
+                    f"this robot has {listed(self._registry.owners, 12)}",
+                ),
             )
         else:
             return skill
@@ -145,14 +150,27 @@ class Calls:
         """The checked value of one argument; None for one that neither the call nor the skill bank gives."""
         if given is None:
             return default_of(spec, self._registry)
-        words = (*self._registry.arms, ANY_ARM) if spec.type == "Arm" else spec.choices if spec.type == "choice" else ()
+        words = (
+            (*self._registry.arms, ANY_ARM)
+            if spec.type == "Arm"
+            else spec.choices
+            if spec.type == "choice"
+            else ()
+        )
         value = self._evaluator.value(given.value, scope, words)
         value = self._types.coerce(value, expected, given.value, state)
-        if isinstance(value, PlaceValue) and spec.type == "Place" and spec.choices and value.kind not in spec.choices:
+        if (
+            isinstance(value, PlaceValue)
+            and spec.type == "Place"
+            and spec.choices
+            and value.kind not in spec.choices
+        ):
             return self._wrong_kind_of_place(value, spec, expected, given.value)
         return self._in_range(value, spec, expected, given.value)
 
-    def _wrong_kind_of_place(self, value: PlaceValue, spec: ArgSpec, expected: Expectation, node: Expression) -> Val:
+    def _wrong_kind_of_place(
+        self, value: PlaceValue, spec: ArgSpec, expected: Expectation, node: Expression
+    ) -> Val:
         wanted = " or ".join(f"a {choice}" for choice in spec.choices)
         self._reporter.report(
             "XEI0305",
@@ -174,7 +192,9 @@ class Calls:
             return value
         if not below and not above:
             return value
-        bounds = f"{spec.min if spec.min is not None else '...'} .. {spec.max if spec.max is not None else '...'}"
+        bounds = (
+            f"{spec.min if spec.min is not None else '...'} .. {spec.max if spec.max is not None else '...'}"
+        )
         may = "may be" if isinstance(value, Interval) else "is"
         side = f"less than {spec.min}" if below else f"more than {spec.max}"
         self._reporter.report(
@@ -186,7 +206,9 @@ class Calls:
         )
         return POISON
 
-    def _slots_accept(self, prepared: _Prepared, given: Mapping[str, Arg], values: Mapping[str, Val | None]) -> bool:
+    def _slots_accept(
+        self, prepared: _Prepared, given: Mapping[str, Arg], values: Mapping[str, Val | None]
+    ) -> bool:
         """Whether each slot takes the object that the skill brings there."""
         for moved, target in moves(prepared.effects):
             thing, place = values.get(moved), values.get(target)

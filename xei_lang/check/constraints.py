@@ -26,7 +26,9 @@ class Clauses:
         self._types = types
         self._reporter = reporter
 
-    def constraint(self, clause: Clause, own: Found, labels: Labels, scope: Scope, state: State) -> TimeConstraint | None:
+    def constraint(
+        self, clause: Clause, own: Found, labels: Labels, scope: Scope, state: State
+    ) -> TimeConstraint | None:
         """What a clause of the steps `own` says; None where it is wrong, or covers no step at all."""
         if isinstance(clause, After):
             return self._after(clause, own, labels, scope, state)
@@ -39,11 +41,15 @@ class Clauses:
         if not isinstance(value, Quantity):
             return None
         if value.value < 0:
-            self._reporter.report("XEI0322", f"{what} takes a time that is not negative", node.span, f"is {show(value)}")
+            self._reporter.report(
+                "XEI0322", f"{what} takes a time that is not negative", node.span, f"is {show(value)}"
+            )
             return None
         return value
 
-    def _within(self, clause: Within, own: Found, labels: Labels, scope: Scope, state: State) -> TimeConstraint | None:
+    def _within(
+        self, clause: Within, own: Found, labels: Labels, scope: Scope, state: State
+    ) -> TimeConstraint | None:
         bound = self.duration(clause.duration, "`within`", scope, state)
         start = own if clause.of is None else labels.find(clause.of, self._reporter)
         if bound is None or own is None or start is None:
@@ -52,7 +58,9 @@ class Clauses:
             return TimeConstraint(own.first, "start", own.last, "end", 0.0, bound.si, clause.span)
         return TimeConstraint(start.last, "end", own.first, "start", 0.0, bound.si, clause.span)
 
-    def _after(self, clause: After, own: Found, labels: Labels, scope: Scope, state: State) -> TimeConstraint | None:
+    def _after(
+        self, clause: After, own: Found, labels: Labels, scope: Scope, state: State
+    ) -> TimeConstraint | None:
         before = labels.find(clause.step, self._reporter)
         low: Val | None = None
         high: Val | None = None
@@ -72,5 +80,7 @@ class Clauses:
                 return None
         if own is None or before is None:
             return None
-        bounds = (low.si, high.si) if isinstance(low, Quantity) and isinstance(high, Quantity) else (0.0, math.inf)
+        bounds = (
+            (low.si, high.si) if isinstance(low, Quantity) and isinstance(high, Quantity) else (0.0, math.inf)
+        )
         return TimeConstraint(before.last, "end", own.first, "start", *bounds, clause.span)

@@ -13,7 +13,9 @@ from xei_lang.syntax.ast import Generic, Role, TypeExpr, walk
 _LATER = ("Pose",)
 
 
-def declared_expectation(node: TypeExpr, what: str, registry: Registry, reporter: Reporter) -> Expectation | None:
+def declared_expectation(
+    node: TypeExpr, what: str, registry: Registry, reporter: Reporter
+) -> Expectation | None:
     """What a declared name takes; None where the type names nothing, which is reported."""
     if isinstance(node, Generic):
         if node.name.id != "List":
@@ -30,7 +32,11 @@ def declared_expectation(node: TypeExpr, what: str, registry: Registry, reporter
         return None
     if isinstance(node, Role) and node.id == "object":
         return Expectation(what, "object")
-    return Expectation(what, "object", None, node) if known_roles(node, registry, reporter, VALUE_TYPES) else None
+    return (
+        Expectation(what, "object", None, node)
+        if known_roles(node, registry, reporter, VALUE_TYPES)
+        else None
+    )
 
 
 def known_roles(node: TypeExpr, registry: Registry, reporter: Reporter, also: tuple[str, ...] = ()) -> bool:
@@ -46,7 +52,9 @@ def known_roles(node: TypeExpr, registry: Registry, reporter: Reporter, also: tu
     return fine
 
 
-def _unknown(name: str, node: TypeExpr, registry: Registry, reporter: Reporter, also: tuple[str, ...]) -> None:
+def _unknown(
+    name: str, node: TypeExpr, registry: Registry, reporter: Reporter, also: tuple[str, ...]
+) -> None:
     if name in VALUE_TYPES:
         message, label = f"`{name}` is a type of values, not a role", "expected a role that objects have"
     else:

@@ -21,8 +21,20 @@ from xei_lang.syntax.ast import (
     Update,
 )
 
-_ARM_PARTS = {"move_to": "arm", "open_gripper": "gripper", "close_gripper": "gripper", "attach": "gripper", "detach": "gripper"}
-_OTHER_PARTS = {"slide_move": "slide", "nav_to_pose": "base", "perceive": "perception", "set_do": "io", "confirm": "person"}
+_ARM_PARTS = {
+    "move_to": "arm",
+    "open_gripper": "gripper",
+    "close_gripper": "gripper",
+    "attach": "gripper",
+    "detach": "gripper",
+}
+_OTHER_PARTS = {
+    "slide_move": "slide",
+    "nav_to_pose": "base",
+    "perceive": "perception",
+    "set_do": "io",
+    "confirm": "person",
+}
 
 
 @dataclass(frozen=True, slots=True)

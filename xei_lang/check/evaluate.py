@@ -127,7 +127,11 @@ class Evaluator:
             return POISON
         if node.op == "not":
             return (not value) if isinstance(value, bool) else self._not_a(value, "a Bool", node.operand)
-        return arithmetic.negate(value) if arithmetic.is_numeric(value) else self._not_a(value, "a number", node.operand)
+        return (
+            arithmetic.negate(value)
+            if arithmetic.is_numeric(value)
+            else self._not_a(value, "a number", node.operand)
+        )
 
     def _binary(self, node: Binary, scope: Scope) -> Val:
         def combine(left: Val, right: Val) -> Val:
@@ -209,10 +213,15 @@ class Evaluator:
             return self._places.property(owner, name, node.span)
         known = (*METHODS, *PROPERTIES)
         if isinstance(owner, ObjectValue) and name in METHODS:
-            shown, help = f"`{name}` of `{show(owner)}` needs an argument", (f'write `{show(owner)}.{name}(...)`',)
+            shown, help = (
+                f"`{name}` of `{show(owner)}` needs an argument",
+                (f"write `{show(owner)}.{name}(...)`",),
+            )
         elif isinstance(owner, ObjectValue):
             shown = f"`{show(owner)}` has no `{name}`"
-            help = meant(did_you_mean(name, known)) or (f"an object has {', '.join(f'`{word}`' for word in known)}",)
+            help = meant(did_you_mean(name, known)) or (
+                f"an object has {', '.join(f'`{word}`' for word in known)}",
+            )
         else:
             shown, help = f"{kind(owner)} has no `{name}`", ()
         self._reporter.report("XEI0319", shown, node.name.span, "no such attribute", help=help)
@@ -241,7 +250,10 @@ class Evaluator:
         if isinstance(owner, ObjectValue) and len(args) == 1:
             return self._places.method(owner, function.name.id, args[0], node)
         if isinstance(owner, ObjectValue):
-            message, label = f"`{function.name.id}` takes one argument, not {len(args)}", "expected one argument"
+            message, label = (
+                f"`{function.name.id}` takes one argument, not {len(args)}",
+                "expected one argument",
+            )
         else:
             message, label = f"{kind(owner)} has no `{function.name.id}`", "only an object has places"
         self._reporter.report("XEI0319", message, node.span, label)
@@ -264,5 +276,8 @@ def _is_open(value: Val) -> bool:
 
 def _place_habit(name: str) -> tuple[str, ...]:
     looks = len(name) in (2, 3) and name[0].isupper() and name[1:].isdigit()
-    return (f'a slot belongs to a rack: write `rack.slot("{name}")` with the name of your rack',) if looks else ()
-
+    return (
+        (f'a slot belongs to a rack: write `rack.slot("{name}")` with the name of your rack',)
+        if looks
+        else ()
+    )

@@ -140,7 +140,14 @@ class Expander:
                 text = Argument("text", action.text.value, "String", "call", action.text.span)
                 facts = self.state.facts()
                 self.plan.add(
-                    step, "confirm", where, facts, owner="person", args=(text,), duration_s=(0.0, math.inf), resources=("person",)
+                    step,
+                    "confirm",
+                    where,
+                    facts,
+                    owner="person",
+                    args=(text,),
+                    duration_s=(0.0, math.inf),
+                    resources=("person",),
                 )
             case Do():
                 self.named_block(step, action.body, scope, where)
@@ -175,7 +182,10 @@ class Expander:
             return
         values = checked.values
         skill = checked.skill
-        key = (skill.name, *(str(values[spec.name]) for spec in skill.args if spec.type == "Arm" and spec.name in values))
+        key = (
+            skill.name,
+            *(str(values[spec.name]) for spec in skill.args if spec.type == "Arm" and spec.name in values),
+        )
         if key not in self._resources:
             self._resources[key] = resources_of(skill, values)
         self.plan.add(

@@ -14,7 +14,18 @@ from xei_lang.quantity import DimensionError, Quantity
 from xei_lang.syntax.ast import CallExpr, Name
 
 _LATER = ("chunks", "pairs", "product", "shuffle")
-STATE_VARIABLES = ("volume", "temperature", "contents", "age", "holding", "at", "cap", "door", "power", "upright")
+STATE_VARIABLES = (
+    "volume",
+    "temperature",
+    "contents",
+    "age",
+    "holding",
+    "at",
+    "cap",
+    "door",
+    "power",
+    "upright",
+)
 """Names that a protocol may ask for the state of something; values of these come with state checking."""
 
 
@@ -61,7 +72,9 @@ class Functions:
         elif name == "range":
             self._wrong("`range` is written as `1 .. 8` here", function.span, "both ends are included")
         elif name in skills:
-            self._wrong(f"`{name}` is a skill and has no value", function.span, "a skill is a statement of its own")
+            self._wrong(
+                f"`{name}` is a skill and has no value", function.span, "a skill is a statement of its own"
+            )
         else:
             known = (*self.names, *_LATER, *STATE_VARIABLES)
             self._reporter.report(
@@ -98,10 +111,14 @@ class Functions:
         return self._fold(node, args, lambda left, right: arithmetic.combine("+", left, right))
 
     def _least(self, node: CallExpr, args: tuple[Val, ...]) -> Val:
-        return self._fold(node, args, lambda left, right: right if arithmetic.compare("<", right, left) else left)
+        return self._fold(
+            node, args, lambda left, right: right if arithmetic.compare("<", right, left) else left
+        )
 
     def _greatest(self, node: CallExpr, args: tuple[Val, ...]) -> Val:
-        return self._fold(node, args, lambda left, right: right if arithmetic.compare(">", right, left) else left)
+        return self._fold(
+            node, args, lambda left, right: right if arithmetic.compare(">", right, left) else left
+        )
 
     def _ceil(self, node: CallExpr, args: tuple[Val, ...]) -> Val:
         value = args[0] if len(args) == 1 else None
@@ -118,7 +135,9 @@ class Functions:
         try:
             return reduce(step, items)
         except DimensionError as error:
-            return self._wrong(f"cannot {error.operation} {error.left.name} and {error.right.name}", node.span)
+            return self._wrong(
+                f"cannot {error.operation} {error.left.name} and {error.right.name}", node.span
+            )
 
     def _wrong(self, message: str, span: Span, label: str = "") -> Val:
         self._reporter.report("XEI0319", message, span, label)

@@ -28,7 +28,9 @@ class Givens:
     def given(self, node: Given, scope: Scope, state: State) -> None:
         """`given variable(subject) == value`."""
         condition = node.condition
-        if not (isinstance(condition, Compare) and condition.op == "==" and isinstance(condition.left, CallExpr)):
+        if not (
+            isinstance(condition, Compare) and condition.op == "==" and isinstance(condition.left, CallExpr)
+        ):
             not_yet(self._reporter, "a `given` other than `given state(object) == value`", condition.span)
             return
         call = condition.left
@@ -50,7 +52,9 @@ class Givens:
             state.set("contents", thing.name, (content,))
             state.set("volume", thing.name, to_plan(amount))
 
-    def _fact(self, variable: Name, subject: Expression, right: Expression, scope: Scope, state: State) -> None:
+    def _fact(
+        self, variable: Name, subject: Expression, right: Expression, scope: Scope, state: State
+    ) -> None:
         what = f"`{variable.id}`"
         if variable.id == "holding":
             self._holding(subject, right, scope, state)
@@ -59,11 +63,15 @@ class Givens:
         if thing is None:
             return
         if variable.id == "at":
-            value = self._types.coerce(self._evaluator.value(right, scope), Expectation(what, "Place"), right, state)
+            value = self._types.coerce(
+                self._evaluator.value(right, scope), Expectation(what, "Place"), right, state
+            )
             if isinstance(value, PlaceValue):
                 state.set("at", thing.name, value.ref)
         elif variable.id == "volume":
-            value = self._types.coerce(self._evaluator.value(right, scope), Expectation(what, "Volume"), right, state)
+            value = self._types.coerce(
+                self._evaluator.value(right, scope), Expectation(what, "Volume"), right, state
+            )
             if not isinstance(value, Poison):
                 state.set("volume", thing.name, to_plan(value))
         elif thing.registered is not None:
@@ -81,7 +89,9 @@ class Givens:
         elif isinstance(arm, Word) and isinstance(value, Word):
             state.set("holding", arm.text, NOTHING)
 
-    def _finite(self, variable: Name, thing: ObjectValue, right: Expression, scope: Scope, state: State) -> None:
+    def _finite(
+        self, variable: Name, thing: ObjectValue, right: Expression, scope: Scope, state: State
+    ) -> None:
         assert thing.registered is not None
         declared = next((item for item in thing.registered.states if item.name == variable.id), None)
         if declared is None:
@@ -111,5 +121,7 @@ class Givens:
         )
 
     def _object(self, node: Expression, what: str, scope: Scope, state: State) -> ObjectValue | None:
-        value = self._types.coerce(self._evaluator.value(node, scope), Expectation(what, "object"), node, state)
+        value = self._types.coerce(
+            self._evaluator.value(node, scope), Expectation(what, "object"), node, state
+        )
         return value if isinstance(value, ObjectValue) else None

@@ -64,7 +64,12 @@ class Labels:
         """What a reference to an earlier step covers; None too where there is none, which is reported."""
         path = _path(node)
         if path is None:
-            reporter.report("XEI0211", "a step is named by its label", node.span, "expected a label, as `a`, `a[2]`, `a.b`")
+            reporter.report(
+                "XEI0211",
+                "a step is named by its label",
+                node.span,
+                "expected a label, as `a`, `a[2]`, `a.b`",
+            )
             return None
         for frame in reversed(self._frames):
             if path in frame:
@@ -72,7 +77,11 @@ class Labels:
         known = [label + rest for frame in self._frames for label, rest in frame]
         written = path[0] + path[1]
         turns = [name for name in known if name.startswith(written + "[")]
-        help = (f"it stands in a loop: name the turn, `{turns[-1]}`",) if turns else meant(did_you_mean(written, known))
+        help = (
+            (f"it stands in a loop: name the turn, `{turns[-1]}`",)
+            if turns
+            else meant(did_you_mean(written, known))
+        )
         reporter.report(
             "XEI0211",
             f"no earlier step is called `{written}`",

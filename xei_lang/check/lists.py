@@ -59,9 +59,13 @@ class Lists:
         step = 1 if node.step is None else nominal(self._evaluate(node.step, scope))
         if POISON in parts or step is POISON:
             return POISON
-        for value, part in zip((*parts, step), (node.lower, node.upper, node.step or node.upper), strict=True):
+        for value, part in zip(
+            (*parts, step), (node.lower, node.upper, node.step or node.upper), strict=True
+        ):
             if not arithmetic.is_numeric(value):
-                return self._wrong("XEI0305", f"`{show(value)}` is {kind(value)}, but a range needs numbers", part.span)
+                return self._wrong(
+                    "XEI0305", f"`{show(value)}` is {kind(value)}, but a range needs numbers", part.span
+                )
         if node.step is None and not (isinstance(parts[0], int) and isinstance(parts[1], int)):
             return self._wrong(
                 "XEI0314",
@@ -77,13 +81,17 @@ class Lists:
         try:
             width = arithmetic.combine("-", upper, lower)
             if not arithmetic.compare(">", step, arithmetic.combine("-", step, step)):
-                return self._wrong("XEI0314", f"the step `{show(step)}` does not go up", span, "expected more than zero")
+                return self._wrong(
+                    "XEI0314", f"the step `{show(step)}` does not go up", span, "expected more than zero"
+                )
             turns = arithmetic.combine("/", width, step)
         except DimensionError as error:
             names = f"{error.left.name} and {error.right.name}"
             return self._wrong("XEI0312", f"the parts of this range do not go together: {names}", node.span)
         if isinstance(turns, Quantity):
-            return self._wrong("XEI0312", "the step of this range is of another dimension than its ends", span)
+            return self._wrong(
+                "XEI0312", "the step of this range is of another dimension than its ends", span
+            )
         assert isinstance(turns, (int, Fraction))
         assert isinstance(lower, (int, Fraction, Quantity)) and isinstance(step, (int, Fraction, Quantity))
         return ListValue(Progression(lower, step, max(0, int(turns) + 1 if turns >= 0 else 0)))
@@ -162,7 +170,9 @@ class Lists:
     def within_bound(self, count: int, span: Span) -> bool:
         """Whether a list is short enough to be made."""
         if count > self._max_items:
-            self._wrong("XEI0316", f"this list would have {count} members", span, f"the bound is {self._max_items}")
+            self._wrong(
+                "XEI0316", f"this list would have {count} members", span, f"the bound is {self._max_items}"
+            )
         return count <= self._max_items
 
     def unpack(self, names: tuple[Name, ...], item: Val, scope: Scope, span: Span) -> bool:

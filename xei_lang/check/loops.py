@@ -20,7 +20,9 @@ def for_loop(expander: Expander, step: Step, loop: For, scope: Scope, where: Whe
     """`for a, b in list { }`: one turn for each member."""
     context = expander.context
     if loop.unordered:
-        not_yet(context.reporter, "`unordered`, turns of a loop in any order,", _word(expander, loop, "unordered"))
+        not_yet(
+            context.reporter, "`unordered`, turns of a loop in any order,", _word(expander, loop, "unordered")
+        )
     value = context.evaluator.value(loop.iterable, scope)
     items = context.evaluator.lists.members(value, loop.iterable)
     if items is None:
@@ -32,7 +34,11 @@ def repeat(expander: Expander, step: Step, loop: Repeat, scope: Scope, where: Wh
     """`repeat 3 times { }`."""
     context = expander.context
     if loop.until is not None:
-        not_yet(context.reporter, "`until`, a loop that ends by what was measured,", _word(expander, loop, "until"))
+        not_yet(
+            context.reporter,
+            "`until`, a loop that ends by what was measured,",
+            _word(expander, loop, "until"),
+        )
     count = nominal(context.evaluator.value(loop.count, scope))
     if count is POISON:
         count = 1
@@ -41,7 +47,9 @@ def repeat(expander: Expander, step: Step, loop: Repeat, scope: Scope, where: Wh
             "XEI0317",
             f"`{show(count)}` is no number of turns",
             loop.count.span,
-            f"expected a whole number, found {kind(count)}" if not isinstance(count, int) else "expected 0 or more",
+            f"expected a whole number, found {kind(count)}"
+            if not isinstance(count, int)
+            else "expected 0 or more",
         )
         count = 1
     _turns(expander, step, loop, range(1, count + 1), scope, where)

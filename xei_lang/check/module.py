@@ -109,7 +109,9 @@ def _protocol(protocol: Protocol, expander: Expander, profile: Profile) -> Skill
 
 def _expand(protocol: Protocol, expander: Expander, scope: Scope, where: Where) -> tuple[Fact, ...]:
     """Expand the protocol; what is given before its first step is the state that it begins with."""
-    first = next((i for i, member in enumerate(protocol.body) if isinstance(member, Step)), len(protocol.body))
+    first = next(
+        (i for i, member in enumerate(protocol.body) if isinstance(member, Step)), len(protocol.body)
+    )
     expander.members(protocol.body[:first], scope, where)
     initial = expander.state.facts()
     for member in protocol.body[first:]:

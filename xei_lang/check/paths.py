@@ -48,36 +48,35 @@ class _Naming:
         self.names: dict[Span, str] = {}
         self._counts: dict[str, int] = {}
 
-    def block(self, members: Iterable[Member], block: str, taken: set[str]) -> set[str]:
-        """Name the steps of a block that is no name space itself; `taken` are the labels used before it."""
+    def block(self, members: Iterable[Member], block: str, taken: set[str]) -> None:
+        """Name the steps of a block that is no name space itself; `taken` grows by the labels used in it."""
         for member in members:
             if not isinstance(member, Step):
                 continue
-            if member.label is not None:
-                label = member.label.id
-                self.names[member.span] = f"{block}.{label}" if label in taken and block else label
-                taken = taken | {label}
-            else:
-                taken = self._unlabelled(member, taken)
-        return taken
+            if member.label is None:
+                self._unlabelled(member, taken)
+                continue
+            label = member.label.id
+            self.names[member.span] = f"{block}.{label}" if label in taken and block else label
+            taken.add(label)
 
-    def _unlabelled(self, step: Step, taken: set[str]) -> set[str]:
+    def _unlabelled(self, step: Step, taken: set[str]) -> None:
         action = step.action
         name = self._count(keyword(action))
         self.names[step.span] = name
         if isinstance(action, If):
-            return self._choice(action, name, taken)
+            self._choice(action, name, taken)
+            return
         for inner in blocks(action):
-            taken = self.block(inner.statements, name, taken)
-        return taken
+            self.block(inner.statements, name, taken)
 
-    def _choice(self, action: If, name: str, taken: set[str]) -> set[str]:
-        after = self.block(action.body.statements, name, taken)
-        if isinstance(action.otherwise, If):
-            after = after | self._choice(action.otherwise, name, taken)
-        elif action.otherwise is not None:
-            after = after | self.block(action.otherwise.statements, name, taken)
-        return after
+    def _choice(self, action: If, name: str, taken: set[str]) -> None:
+        """Each branch sees only what was taken before the choice."""
+        before = set(taken)
+        for branch in blocks(action):
+            seen = set(before)
+            self.block(branch.statements, name, seen)
+            taken |= seen
 
     def _count(self, word: str) -> str:
         self._counts[word] = self._counts.get(word, 0) + 1
@@ -127,7 +126,9 @@ def blocks(action: object) -> tuple[Block, ...]:
             return action.branches
         case If():
             otherwise = action.otherwise
-            rest = blocks(otherwise) if isinstance(otherwise, If) else () if otherwise is None else (otherwise,)
+            rest = (
+                blocks(otherwise) if isinstance(otherwise, If) else () if otherwise is None else (otherwise,)
+            )
             return (action.body, *rest)
         case _:
             return ()

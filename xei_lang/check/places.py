@@ -47,7 +47,11 @@ class Places:
         if argument is POISON:
             return POISON
         wanted = "a number" if name == "column" else "a String"
-        right = isinstance(argument, int) and not isinstance(argument, bool) if name == "column" else isinstance(argument, str)
+        right = (
+            isinstance(argument, int) and not isinstance(argument, bool)
+            if name == "column"
+            else isinstance(argument, str)
+        )
         if not right:
             self._reporter.report(
                 "XEI0305",
@@ -100,14 +104,25 @@ class Places:
         return self._missing(owner, "column", key, columns, node)
 
     def _one(
-        self, owner: ObjectValue, kind: Literal["slot", "spot"], key: str, known: tuple[str, ...], node: Expression
+        self,
+        owner: ObjectValue,
+        kind: Literal["slot", "spot"],
+        key: str,
+        known: tuple[str, ...],
+        node: Expression,
     ) -> Val:
         return PlaceValue(owner, kind, key) if key in known else self._missing(owner, kind, key, known, node)
 
-    def _missing(self, owner: ObjectValue, kind: str, key: str, known: tuple[str, ...], node: Expression) -> Val:
+    def _missing(
+        self, owner: ObjectValue, kind: str, key: str, known: tuple[str, ...], node: Expression
+    ) -> Val:
         thing = owner.registered
         rule = thing.slots.span if thing and thing.slots and kind != "spot" else thing.span if thing else None
-        there = f"`{owner.name}` has the {kind}s {listed(known, 12)}" if known else f"`{owner.name}` has no {kind}s"
+        there = (
+            f"`{owner.name}` has the {kind}s {listed(known, 12)}"
+            if known
+            else f"`{owner.name}` has no {kind}s"
+        )
         self._reporter.report(
             "XEI0205",
             f"`{owner.name}` has no {kind} `{key}`",

@@ -50,7 +50,9 @@ class Where:
 
     def either_way(self, branch: str, condition: str) -> Where:
         """In a branch of a choice that is not decided yet."""
-        return replace(self, branch=f"{self.branch}/{branch}" if self.branch else branch, when=(*self.when, condition))
+        return replace(
+            self, branch=f"{self.branch}/{branch}" if self.branch else branch, when=(*self.when, condition)
+        )
 
 
 @dataclass(slots=True)

@@ -22,7 +22,9 @@ if TYPE_CHECKING:
     from xei_lang.check.expand import Expander
 
 
-def inline(expander: Expander, step: Step, call: Call, procedure: Procedure, scope: Scope, where: Where) -> None:
+def inline(
+    expander: Expander, step: Step, call: Call, procedure: Procedure, scope: Scope, where: Where
+) -> None:
     """Expand a procedure's body in place of its call, with the arguments as they are at this point."""
     name = procedure.name.id
     expander.called.add(name)
@@ -93,7 +95,12 @@ def _signature(procedure: Procedure) -> Signature:
 
 
 def _actual(
-    expander: Expander, formal: Param, given: Mapping[str, Arg], procedure: Procedure, scope: Scope, inner: Scope
+    expander: Expander,
+    formal: Param,
+    given: Mapping[str, Arg],
+    procedure: Procedure,
+    scope: Scope,
+    inner: Scope,
 ) -> Val:
     context, name = expander.context, formal.name.id
     what = f"`{name}` of `{procedure.name.id}`"
@@ -145,7 +152,10 @@ def _too_deep(expander: Expander, call: Call, where: Where) -> bool:
         return True
     if where.depth >= MAX_DEPTH:
         reporter.report(
-            "XEI0321", f"calls and blocks lie more than {MAX_DEPTH} deep in each other", call.callee.span, "this call"
+            "XEI0321",
+            f"calls and blocks lie more than {MAX_DEPTH} deep in each other",
+            call.callee.span,
+            "this call",
         )
         return True
     return False

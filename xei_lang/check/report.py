@@ -41,13 +41,15 @@ class Reporter:
         """Keep a diagnostic, unless the same code was reported at the same place."""
         key = (code, span)
         if key not in self._found:
-            chain = tuple(Label(call.span, f"in this call of `{call.procedure}`") for call in reversed(self.calls))
+            chain = tuple(
+                Label(call.span, f"in this call of `{call.procedure}`") for call in reversed(self.calls)
+            )
             self._found[key] = Diagnostic(code, message, span, label, labels + chain, notes, help, fix)
 
     def rule(self, span: Span) -> str:
         """The note that says which line of a profile makes the rule; only the file where its text is not at hand."""
         source = self._sources.get(span.file)
-        place = f"{span.file}:{source.position(span.start).line}" if source else span.file
+        place = f"{span.file}:{source.line_number(span.start)}" if source else span.file
         return f"rule: {place}"
 
     @contextmanager

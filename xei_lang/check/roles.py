@@ -28,9 +28,9 @@ def holds(expression: TypeExpr, has: Callable[[str], bool]) -> bool:
             return False
 
 
-def fits(expression: TypeExpr, roles: Iterable[str]) -> bool:
+def fits(expression: TypeExpr, roles: tuple[str, ...]) -> bool:
     """Whether something with just these roles meets the expression."""
-    return holds(expression, frozenset(roles).__contains__)
+    return holds(expression, roles.__contains__)
 
 
 def unmet(expression: TypeExpr, roles: Iterable[str]) -> str:

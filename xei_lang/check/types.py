@@ -101,7 +101,9 @@ class Types:
         return POISON
 
     def _no_unit(self, value: Val, expected: Expectation, node: Expression) -> Val:
-        unit = next(symbol for symbol, unit in UNITS.items() if unit.dimension in TYPE_DIMENSIONS[expected.type])
+        unit = next(
+            symbol for symbol, unit in UNITS.items() if unit.dimension in TYPE_DIMENSIONS[expected.type]
+        )
         units = [symbol for symbol, unit in UNITS.items() if unit.dimension in TYPE_DIMENSIONS[expected.type]]
         example = f"{show(value)} {units[1] if len(units) > 1 else unit}"
         self._reporter.report(
@@ -157,7 +159,11 @@ class Types:
         if misfit is None:
             return True
         reason = unmet(expected.roles, misfit.roles)
-        bound = f"`{value.name}`" if misfit is value.registered else f"`{value.name}`, which may be `{misfit.name}`,"
+        bound = (
+            f"`{value.name}`"
+            if misfit is value.registered
+            else f"`{value.name}`, which may be `{misfit.name}`,"
+        )
         fitting = candidates(expected.roles, self._registry)
         self._reporter.report(
             "XEI0309",
@@ -208,8 +214,24 @@ class Types:
         return (self._reporter.rule(expected.rule),) if expected.rule else ()
 
 
-_CONFUSED_UNITS = ("g", "xg"), ("m", "min"), ("degC", "K"), ("mm", "mL"), ("mM", "mL"), ("mL", "mM"), ("mm", "mM")
-_MORE_CONFUSED = ("mM", "mm"), ("mL", "mm"), ("uM", "uL"), ("um", "uL"), ("uL", "uM"), ("M", "min"), ("K", "degC")
+_CONFUSED_UNITS = (
+    ("g", "xg"),
+    ("m", "min"),
+    ("degC", "K"),
+    ("mm", "mL"),
+    ("mM", "mL"),
+    ("mL", "mM"),
+    ("mm", "mM"),
+)
+_MORE_CONFUSED = (
+    ("mM", "mm"),
+    ("mL", "mm"),
+    ("uM", "uL"),
+    ("um", "uL"),
+    ("uL", "uM"),
+    ("M", "min"),
+    ("K", "degC"),
+)
 
 
 def _mended_unit(node: Expression, dimensions: tuple[Dimension, ...]) -> str | None:
