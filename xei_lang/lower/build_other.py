@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from xei_lang.ir.goals import Confirm, NavToPose, Perceive, SetDo, SlideMove, Wait
+from xei_lang.ir.goals import Confirm, Instrument, NavToPose, Perceive, SetDo, SlideMove, Wait
+from xei_lang.ir.skill_plan import ObjectRef
 from xei_lang.lower.draft import Builder, Draft, contacts
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.task import Task, refuse_template
@@ -73,6 +74,13 @@ def _confirm(task: Task, line: TemplateStep) -> Draft:
     return _draft(task, line, Confirm(str(_literal_or_argument(task, line, "text"))), ("person",))
 
 
+def _instrument(task: Task, line: TemplateStep) -> Draft:
+    name, command = _literal_or_argument(task, line, "instrument"), str(line.field("command"))
+    if not isinstance(name, ObjectRef):
+        refuse_template(line, f"`{name}` is not an instrument", "expected an argument of type object")
+    return _draft(task, line, Instrument(name.name, command), (name.name,))
+
+
 def _literal_or_argument(task: Task, line: TemplateStep, field: str) -> object:
     written = line.field(field)
     value = task.argument(written) if isinstance(written, str) else None
@@ -80,7 +88,10 @@ def _literal_or_argument(task: Task, line: TemplateStep, field: str) -> object:
 
 
 def _draft(
-    task: Task, line: TemplateStep, action: SlideMove | SetDo | Confirm, resources: tuple[str, ...]
+    task: Task,
+    line: TemplateStep,
+    action: SlideMove | SetDo | Confirm | Instrument,
+    resources: tuple[str, ...],
 ) -> Draft:
     return Draft(line.kind, action, resources, task.scene, (), contacts(task.scene, task.scene))
 
@@ -91,3 +102,4 @@ PERCEIVE = Builder(("frame",), (), _perceive)
 SET_DO = Builder(("output", "value"), (), _set_do)
 WAIT = Builder(("for",), (), _wait)
 CONFIRM = Builder(("text",), (), _confirm)
+INSTRUMENT = Builder(("instrument", "command"), (), _instrument)

@@ -11,7 +11,7 @@ from xei_lang.lower.assemble import Assembly
 from xei_lang.lower.draft import Draft, contacts
 from xei_lang.lower.hand import SIDES
 from xei_lang.lower.refusal import Refusal, refuse
-from xei_lang.lower.scene_origin import STEP_ID, scene_origin
+from xei_lang.lower.scene_origin import STEP_ID, arrival, scene_origin
 from xei_lang.lower.task import Task
 from xei_lang.lower.templates import expand
 from xei_lang.lower.walk import Scene
@@ -73,10 +73,17 @@ def _lower_step(assembly: Assembly, plan: SkillPlan, index: int, scene: Scene, p
         return scene
     task = _task(plan, index, spec, scene, profile)
     drafts = expand(task)
+    if task.scene.epoch.index > scene.epoch.index:
+        drafts += _arrive(task)
     assembly.families.extend(task.families)
     longest_s = step.duration_s[1] or spec.duration_s[1]
     assembly.add(step.step_id, step.span, after=after, before=scene, drafts=drafts, max_duration_s=longest_s)
     return task.scene
+
+
+def _arrive(task: Task) -> tuple[Draft, ...]:
+    station = _station(task.profile, task.scene.epoch.station)
+    return arrival(task.scene, task.profile, station, task.spec.template) if station else ()
 
 
 def _task(plan: SkillPlan, index: int, spec: SkillSpec, scene: Scene, profile: Profile) -> Task:

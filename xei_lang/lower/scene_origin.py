@@ -1,5 +1,7 @@
-"""The motion before anything else: from wherever the robot woke up to a posture from which a bench can be
-worked.
+"""The posture from which a bench is worked: both arms `ready`, the slide at the station's height.
+
+The robot goes there before anything else, and again after every drive: what lies between is a drive's
+transport pose.
 """
 
 from __future__ import annotations
@@ -7,21 +9,47 @@ from __future__ import annotations
 from xei_lang.ir.goals import MoveTo, SlideMove
 from xei_lang.ir.world import World
 from xei_lang.lower.build_arm import configuration
-from xei_lang.lower.draft import Draft
+from xei_lang.lower.draft import Draft, contacts
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.walk import Scene
-from xei_lang.profiles.model import Profile, SceneOrigin
+from xei_lang.profiles.model import Profile, SceneOrigin, TemplateStep
 
 STEP_ID = "scene_origin"
 _SAME = 1e-9
 
 
 def scene_origin(scene: Scene, world: World, profile: Profile, station: SceneOrigin) -> tuple[Draft, ...]:
-    """Slide to the station's height and both arms to `ready`; what already is there is left out.
+    """The motion before anything else, from wherever the robot woke up; what already is in place is left out.
 
     The slide goes first where that takes the arms up, away from the bench, and last where it takes them down.
     Raises Refusal (XEI0701) where the robot's description has no `ready`.
     """
+    now = dict(world.robot.joints)
+    arms, slide = _arms_ready(scene, profile, station), _slide(scene, station)
+    rise_m = station.slide_m - now.get("slide_joint", 0.0)
+    ready = profile.robot.state("ready")
+    away = any(abs(now.get(name, 0.0) - value) > _SAME for name, value in ready)
+    ordered = ((rise_m > _SAME, slide), (away, arms), (rise_m < -_SAME, slide))
+    return tuple(draft for wanted, draft in ordered if wanted)
+
+
+def arrival(
+    scene: Scene, profile: Profile, station: SceneOrigin, template: tuple[TemplateStep, ...]
+) -> tuple[Draft, ...]:
+    """The motion after a drive: the slide, then the arms, as far as the skill's own template does not say
+    otherwise.
+    """
+    kinds = [line.kind for line in template]
+    after = kinds[kinds.index("nav_to_pose") + 1 :]
+    drafts = (_slide(scene, station), _arms_ready(scene, profile, station))
+    return tuple(draft for draft in drafts if draft.kind not in after)
+
+
+def _slide(scene: Scene, station: SceneOrigin) -> Draft:
+    return Draft("slide_move", SlideMove(station.slide_m), ("slide",), scene, (), contacts(scene, scene))
+
+
+def _arms_ready(scene: Scene, profile: Profile, station: SceneOrigin) -> Draft:
     found = configuration(profile, "ready", None)
     if found is None:
         refuse(
@@ -32,11 +60,4 @@ def scene_origin(scene: Scene, world: World, profile: Profile, station: SceneOri
             notes=(f"rule: {profile.bank.srdf}",),
         )
     target, resources = found
-    now = dict(world.robot.joints)
-    arms = Draft("move_to", MoveTo(target), resources, scene)
-    slide = Draft("slide_move", SlideMove(station.slide_m), ("slide",), scene)
-    moves_arms = any(abs(now.get(name, 0.0) - value) > _SAME for name, value in target.joints)
-    rise_m = station.slide_m - now.get("slide_joint", 0.0)
-    ordered = (slide, arms) if rise_m > 0.0 else (arms, slide)
-    wanted = {"move_to": moves_arms, "slide_move": abs(rise_m) > _SAME}
-    return tuple(draft for draft in ordered if wanted[draft.kind])
+    return Draft("move_to", MoveTo(target), resources, scene, (), contacts(scene, scene))

@@ -27,6 +27,7 @@ BUILDERS: Mapping[GoalKind, Builder] = MappingProxyType(
         "set_do": build_other.SET_DO,
         "wait": build_other.WAIT,
         "confirm": build_other.CONFIRM,
+        "instrument": build_other.INSTRUMENT,
     }
 )
 

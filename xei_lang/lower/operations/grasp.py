@@ -200,10 +200,11 @@ def _request(work: Work, known: LabObject, closing: Closing, hand: Hand, floor_m
     return Request(
         height_of(known.shape),
         closing,
-        floor_m + work.profile.calibration.clearance_m + MIN_CLEARANCE_M,
+        floor_m,
         hand,
         pose,
         reach_direction(work.profile, work.arm, pose),
+        work.profile.calibration.clearance_m + MIN_CLEARANCE_M,
         _elevations(work),
         depth.si("Length") if depth else None,
         standoff.si("Length") if standoff else math.inf,

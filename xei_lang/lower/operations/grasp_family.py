@@ -20,7 +20,7 @@ from xei_lang.lower.operations.approach import standoff_needed_m
 ELEVATIONS_DEG = (0.0, 30.0, 45.0, 60.0, 90.0)
 MIN_CLEARANCE_M = 0.001
 _HEADINGS = 12
-_TOP_MARGIN_M = 0.008
+_TOP_MARGIN_M = 0.013
 _BEHIND = -0.5
 _STEEP_DEG = 60.0
 _UPWARD = 0.05
@@ -53,6 +53,7 @@ class Request:
     hand: Hand
     T_base_object: Pose
     reach: tuple[float, float]
+    clearance_m: float
     elevations_deg: tuple[float, ...] = ELEVATIONS_DEG
     depth_m: float | None = None
     standoff_m: float = math.inf
@@ -122,7 +123,8 @@ def _heights(request: Request, elevation_rad: float, turned: bool) -> tuple[floa
     first.
     """
     height, half = request.height_m, request.closing.half_depth_m
-    lowest = max(request.floor_m + drop_m(elevation_rad, turned), height - _deepest(request, elevation_rad))
+    floor = request.floor_m + request.clearance_m + drop_m(elevation_rad, turned)
+    lowest = max(floor, height - _deepest(request, elevation_rad))
     highest = height - min(_TOP_MARGIN_M, height / 3)
     if request.depth_m is not None:
         wanted = height - request.depth_m
@@ -144,7 +146,7 @@ def _heights(request: Request, elevation_rad: float, turned: bool) -> tuple[floa
 def _deepest(request: Request, elevation_rad: float) -> float:
     """How far under the top the grasp point may lie before the object meets the palm."""
     side = request.closing.half_depth_m * math.cos(elevation_rad)
-    room = request.hand.palm_m - MIN_CLEARANCE_M - side
+    room = request.hand.palm_m - request.clearance_m - side
     if room < 0.0:
         return -math.inf
     down = math.sin(elevation_rad)

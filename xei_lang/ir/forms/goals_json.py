@@ -1,0 +1,157 @@
+"""MotionGoalGraph as JSON: `{"version", "epochs", "families", "goals", "edges"}` (schema:
+`goals.schema.json`).
+
+Spans count characters from 0 in their file, end excluded. A duration without a bound is `null`. Every
+action carries what its dataclass in `ir/goals.py` says, under the same names.
+"""
+
+from __future__ import annotations
+
+import math
+
+from xei_lang.diagnostics import Span
+from xei_lang.ir.forms.canonical import Json
+from xei_lang.ir.forms.geometry_json import pose
+from xei_lang.ir.goals import (
+    Action,
+    Attach,
+    Confirm,
+    Detach,
+    Epoch,
+    Family,
+    Grip,
+    Instrument,
+    JointTarget,
+    MotionGoal,
+    MotionGoalGraph,
+    MoveTo,
+    NavToPose,
+    Parameter,
+    Perceive,
+    SetDo,
+    SlideMove,
+    ToolTarget,
+    Wait,
+)
+
+
+def to_json(graph: MotionGoalGraph) -> dict[str, Json]:
+    """The whole graph, goals in their topological order."""
+    return {
+        "version": 1,
+        "epochs": [_epoch(item) for item in graph.epochs],
+        "goals": [_goal(item) for item in graph.goals],
+        "edges": [list(edge) for edge in graph.edges],
+        "families": [_family(item) for item in graph.families],
+    }
+
+
+def _epoch(item: Epoch) -> dict[str, Json]:
+    return {"index": item.index, "station": item.station, "T_world_base": pose(item.T_world_base)}
+
+
+def _family(item: Family) -> dict[str, Json]:
+    members: list[Json] = [
+        {"name": member.name, "cost": member.cost, "T_reference_tool": pose(member.T_reference_tool)}
+        for member in item.members
+    ]
+    return {
+        "id": item.id,
+        "reference": item.reference,
+        "symmetric": item.symmetric,
+        "members": members,
+    }
+
+
+def _goal(goal: MotionGoal) -> dict[str, Json]:
+    longest = goal.max_duration_s
+    return {
+        "id": goal.id,
+        "step_id": goal.step_id,
+        "kind": goal.kind,
+        "epoch": goal.epoch,
+        "provisional": goal.provisional,
+        "resources": list(goal.resources),
+        "min_duration_s": goal.min_duration_s,
+        "max_duration_s": None if math.isinf(longest) else longest,
+        "action": _action(goal.action),
+        "parameters": [_parameter(item) for item in goal.parameters],
+        "allowed_contacts": [list(pair) for pair in goal.allowed_contacts],
+        "span": _span(goal.span),
+    }
+
+
+def _parameter(item: Parameter) -> dict[str, Json]:
+    value: dict[str, Json] = {
+        "name": item.name,
+        "value": item.value,
+        "source": item.source,
+        "rule": item.rule,
+    }
+    return {**value, "span": _span(item.span)} if item.span else value
+
+
+def _span(span: Span) -> dict[str, Json]:
+    return {"file": span.file, "start": span.start, "end": span.end}
+
+
+def _action(action: Action) -> dict[str, Json]:
+    if isinstance(action, MoveTo):
+        return {
+            "arm": action.arm,
+            "path": action.path,
+            "keep_upright": action.keep_upright,
+            "speed_fraction": action.speed_fraction,
+            "target": _target(action.target),
+        }
+    if isinstance(action, Grip):
+        return {"arm": action.arm, "opening_m": action.opening_m, "force_n": action.force_n}
+    if isinstance(action, Attach):
+        return {"object": action.object, "arm": action.arm, "family": action.family}
+    if isinstance(action, Detach):
+        return {
+            "object": action.object,
+            "arm": action.arm,
+            "place": action.place,
+            "T_base_object": pose(action.T_base_object),
+        }
+    if isinstance(action, NavToPose):
+        return {
+            "station": action.station,
+            "T_world_base": pose(action.T_world_base),
+            "position_tolerance_m": action.position_tolerance_m,
+            "rotation_tolerance_rad": action.rotation_tolerance_rad,
+        }
+    return _plain(action)
+
+
+def _target(target: ToolTarget | JointTarget) -> dict[str, Json]:
+    if isinstance(target, JointTarget):
+        return {"configuration": target.name, "joints": dict(target.joints)}
+    return {
+        "family": target.family,
+        "T_base_reference": pose(target.T_base_reference),
+        "offset_base_m": list(target.offset_base_m),
+        "offset_tool_m": list(target.offset_tool_m),
+        "turn_reference": target.turn_reference,
+        "position_tolerance_m": target.position_tolerance_m,
+        "rotation_tolerance_rad": target.rotation_tolerance_rad,
+    }
+
+
+def _plain(
+    action: SetDo | SlideMove | Perceive | Confirm | Instrument | Wait,
+) -> dict[str, Json]:
+    match action:
+        case SetDo():
+            return {"output": action.output, "value": action.value}
+        case SlideMove():
+            return {"height_m": action.height_m}
+        case Perceive():
+            return {"frame": action.frame}
+        case Confirm():
+            return {"text": action.text}
+        case Instrument():
+            return {"instrument": action.instrument, "command": action.command}
+        case Wait():
+            return {"duration_s": action.duration_s}

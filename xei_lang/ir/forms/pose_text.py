@@ -1,0 +1,30 @@
+"""Lengths and poses in the words of people: millimetres and degrees, rounded, without negative zeros."""
+
+from __future__ import annotations
+
+import math
+
+from xei_lang.ir.geometry import Pose
+
+
+def millimetres(length_m: float) -> str:
+    """A length in mm, to a tenth, without trailing zeros."""
+    return f"{round(length_m * 1000, 1) + 0.0:g}"
+
+
+def pose_text(pose: Pose) -> str:
+    """`(560, 45, 755) mm`, with `yaw -90 deg` where it is turned about z, or all of roll, pitch and yaw."""
+    place = f"({', '.join(millimetres(value) for value in pose.position_m)}) mm"
+    roll, pitch, yaw = (round(math.degrees(angle), 2) + 0.0 for angle in _rpy(pose))
+    if roll or pitch:
+        return f"{place} rpy ({roll:g}, {pitch:g}, {yaw:g}) deg"
+    return f"{place} yaw {yaw:g} deg" if yaw else place
+
+
+def _rpy(pose: Pose) -> tuple[float, float, float]:
+    """Fixed-axis roll, pitch, yaw (rad); at pitch +-90 deg the roll is taken as 0."""
+    x, y, z = pose.axes()
+    pitch = math.asin(max(-1.0, min(1.0, -x[2])))
+    if abs(x[2]) > 1.0 - 1e-9:
+        return 0.0, pitch, math.atan2(-y[0], y[1])
+    return math.atan2(y[2], z[2]), pitch, math.atan2(x[1], x[0])
