@@ -13,7 +13,9 @@ GOLDEN = Path(__file__).parent / "golden"
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    parser.addoption("--update-golden", action="store_true", help="write what golden tests and markdown tests produce")
+    parser.addoption(
+        "--update-golden", action="store_true", help="write what golden tests and markdown tests produce"
+    )
 
 
 @pytest.fixture
@@ -21,13 +23,12 @@ def update_golden(request: pytest.FixtureRequest) -> bool:
     return bool(request.config.getoption("--update-golden"))
 
 
-@pytest.fixture
-def golden(update_golden: bool) -> Callable[[str, str], None]:
-    """`golden("name.txt", text)` compares with tests/golden/name.txt; a missing file fails."""
+def golden_comparer(*, update: bool) -> Callable[[str, str], None]:
+    """Compares a text with a file under tests/golden/, or writes it there."""
 
     def compare(name: str, text: str) -> None:
         path = GOLDEN / name
-        if update_golden:
+        if update:
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text, encoding="utf-8", newline="")
         if not path.exists():
@@ -35,6 +36,12 @@ def golden(update_golden: bool) -> Callable[[str, str], None]:
         assert text == path.read_bytes().decode(), f"differs from {path}; --update-golden writes it anew"
 
     return compare
+
+
+@pytest.fixture
+def golden(update_golden: bool) -> Callable[[str, str], None]:
+    """`golden("name.txt", text)` compares with tests/golden/name.txt; a missing file fails."""
+    return golden_comparer(update=update_golden)
 
 
 @pytest.fixture

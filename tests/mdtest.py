@@ -10,8 +10,8 @@
     error[XEI0302]: ...
     ```
 
-Prose may stand anywhere. An input block is any fenced block whose language is not `text`; it must be followed by
-its `text` block. With `update`, the `text` blocks are rewritten (and made where they lack), prose stays.
+Prose may stand anywhere. An input block is any fenced block whose language is not `text`; it must be followed
+by its `text` block. With `update`, the `text` blocks are rewritten (and made where they lack), prose stays.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _BLOCK = re.compile(r"^```(?P<language>[a-z]+)\n(?P<body>.*?)^```$\n?", re.DOTAL
 
 
 def run_markdown(path: Path, produce: Callable[[str], str], *, update: bool = False) -> None:
-    """Run `produce` on each input block of a file and compare with its expected block; all are tried first."""
+    """Run `produce` on each input block of a file and compare with its expected block; all are tried."""
     text = path.read_text(encoding="utf-8")
     blocks = list(_BLOCK.finditer(text))
     inputs = [index for index, block in enumerate(blocks) if block["language"] != "text"]
@@ -61,5 +61,7 @@ def _title(text: str, offset: int) -> str:
 def _difference(title: str, expected: str | None, actual: str) -> str:
     if expected is None:
         return f"## {title}\nno expected block; got:\n{actual}"
-    lines = difflib.unified_diff(expected.splitlines(), actual.splitlines(), "expected", "actual", lineterm="", n=99)
+    lines = difflib.unified_diff(
+        expected.splitlines(), actual.splitlines(), "expected", "actual", lineterm="", n=99
+    )
     return f"## {title}\n" + "\n".join(lines) + "\n"

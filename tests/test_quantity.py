@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import subprocess
 import sys
@@ -23,7 +24,7 @@ from xei_lang.quantity import (
     suggest_unit,
 )
 
-numbers = st.decimals(min_value=-10**6, max_value=10**6, places=4, allow_nan=False).map(Fraction)
+numbers = st.decimals(min_value=-(10**6), max_value=10**6, places=4, allow_nan=False).map(Fraction)
 plain_units = st.sampled_from(sorted(symbol for symbol, unit in UNITS.items() if not unit.dimension.point))
 quantities = st.builds(quantity, numbers, plain_units)
 
@@ -115,7 +116,9 @@ def test_products_find_their_unit() -> None:
     assert str(parse_quantity("3 m") * parse_quantity("2 N")) == "6 Nm"
     assert str(parse_quantity("2 mL") / parse_quantity("4 mL")) == "0.5"
     assert str(1 / parse_quantity("10 s")) == "0.1 Hz"
-    assert (parse_quantity("1 m") * parse_quantity("1 m") / parse_quantity("1 s")).dimension.name == "Length^2/Time"
+    assert (
+        parse_quantity("1 m") * parse_quantity("1 m") / parse_quantity("1 s")
+    ).dimension.name == "Length^2/Time"
     assert (parse_quantity("1 m") * parse_quantity("1 m")).unit == "m^2"
 
 
@@ -165,15 +168,15 @@ def test_other_dimensions_never_mix(x: Quantity, y: Quantity) -> None:
 def test_point_laws(a: Fraction, b: Fraction) -> None:
     warm, other = quantity(a, "degC"), quantity(b, "degC")
     assert warm + (other - warm) == other
-    assert -(-warm) == warm
+    below = -warm
+    assert -below == warm
+    assert below.magnitude == -a
 
 
 @given(st.text(max_size=40))
 def test_any_text_parses_or_says_why(text: str) -> None:
-    try:
-        parse_quantity(text)
-    except QuantityError as error:
-        assert error.reason
+    with contextlib.suppress(QuantityError):
+        assert parse_quantity(text).unit in UNITS
 
 
 def test_habits_name_units_and_are_none() -> None:
@@ -194,6 +197,7 @@ def test_huge_values_still_print() -> None:
 
 
 def test_import_is_light() -> None:
-    code = "import sys, xei_lang.quantity; print([m for m in ('numpy', 'pint', 'pydantic', 'lark') if m in sys.modules])"
+    heavy = ("numpy", "pint", "pydantic", "lark", "yaml")
+    code = f"import sys, xei_lang.quantity; print([name for name in {heavy} if name in sys.modules])"
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert result.stdout.strip() == "[]"

@@ -61,15 +61,16 @@ class Driver:
                     values.append(token)
                     break
                 rule = rules[-1 - action]
-                size = rule.size
-                if not rule.passes:
+                if rule.passes:
+                    states[-1] = gotos[states[-2]][rule.origin]
+                else:
+                    size = rule.size
                     taken = values[-size:] if size else []
+                    del values[len(values) - size :], states[len(states) - size :]
                     if not rule.plain:
                         taken = _spliced(taken, rule.parts)
-                    del values[len(values) - size :]
                     values.append(reductions[-1 - action](taken))
-                del states[len(states) - size :]
-                states.append(gotos[states[-1]][rule.origin])
+                    states.append(gotos[states[-1]][rule.origin])
                 if kind == END and states[-1] == end_state:
                     return values[-1]
 

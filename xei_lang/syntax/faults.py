@@ -109,7 +109,7 @@ def _in_words(expected: frozenset[str], tables: Tables) -> str:
         parts.append("a declaration or step" if "PARAM" in rest else "a step")
         rest -= _STATEMENT_WORDS | {"NAME", "AFTER", "WITHIN", END}
     if rest >= _VALUE:
-        parts.append("a value" if "NOT" not in rest else "a value or condition")
+        parts.append("a value")
         rest -= _VALUE | {"NAME", "TRUE", "FALSE", "NOT", "MINUS", "COLON"}
     if "DOT" in rest:
         rest -= {"LPAR", "LSQB"}

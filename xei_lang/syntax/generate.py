@@ -26,29 +26,45 @@ def make_tables(grammar: str, *, strict: bool = False) -> Tables:
     )
     table: Any = lark.parser.parser._parse_table
     rules: dict[Any, int] = {rule: index for index, rule in enumerate(lark.rules)}
-    states = sorted(table.states)
-    assert states == list(range(len(states)))
-    actions: list[dict[str, int]] = []
-    gotos: list[dict[str, int]] = []
-    for state in states:
-        actions.append({})
-        gotos.append({})
+    numbers = _state_numbers(table)
+    actions: list[dict[str, int]] = [{} for _ in numbers]
+    gotos: list[dict[str, int]] = [{} for _ in numbers]
+    for state, number in numbers.items():
         for symbol, (kind, argument) in sorted(table.states[state].items()):
-            is_terminal = symbol.isupper() or symbol.startswith("$")
-            target = argument if kind.name == "Shift" else -1 - rules[argument]
-            (actions if is_terminal else gotos)[-1][str(symbol)] = target
+            target = numbers[argument] if kind.name == "Shift" else -1 - rules[argument]
+            (actions if _is_terminal(symbol) else gotos)[number][str(symbol)] = target
     words, signs, patterns = _terminals(lark)
     return Tables(
         rules=tuple(_rule(rule) for rule in lark.rules),
         actions=tuple(actions),
         gotos=tuple(gotos),
-        start_states={start: table.start_states[start] for start in STARTS},
-        end_states={start: table.end_states[start] for start in STARTS},
+        start_states={start: numbers[table.start_states[start]] for start in STARTS},
+        end_states={start: numbers[table.end_states[start]] for start in STARTS},
         patterns=patterns,
         words=words,
         signs=signs,
         ignored=tuple(sorted(str(name) for name in lark.ignore_tokens)),
     )
+
+
+def _state_numbers(table: Any) -> dict[int, int]:
+    """The states numbered as they are met from the starts on: lark's own numbers differ from run to run."""
+    numbers: dict[int, int] = {}
+    waiting = [table.start_states[start] for start in STARTS]
+    for state in waiting:
+        if state not in numbers:
+            numbers[state] = len(numbers)
+            shifts = sorted(
+                (str(symbol), target)
+                for symbol, (kind, target) in table.states[state].items()
+                if kind.name == "Shift"
+            )
+            waiting.extend(target for _, target in shifts)
+    return numbers
+
+
+def _is_terminal(symbol: str) -> bool:
+    return symbol.isupper() or symbol.startswith("$")
 
 
 def _rule(rule: Any) -> Rule:

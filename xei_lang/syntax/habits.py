@@ -36,6 +36,8 @@ def find_habit(before: list[Token], token: Token, text: str) -> Habit | None:
     found = _unit(before, token, text)
     if found is not None:
         return found
+    if token.text == "/" and before and before[-1].text == "/" and before[-1].end == token.start:
+        return _instead("//", "#", before[-1].start, "write `#`")
     if token.text in _SIGNS:
         doubled = text.startswith(token.text, token.end)
         right = _SIGNS[token.text]
@@ -59,12 +61,20 @@ def _around_name(before: list[Token], token: Token) -> Habit | None:
             token.end,
             (f"write `let {previous.text} = ...`; a name keeps its value",),
         )
+    if token.kind == "COMPARISON" and any(other.kind == "COMPARISON" for other in before[-4:-1]):
+        return Habit(
+            "comparisons are not chained",
+            "a second comparison",
+            token.start,
+            token.end,
+            ("write two of them: `a < b and b < c`",),
+        )
     if token.kind == "QUANTITY" and previous.kind == "QUANTITY":
         whole = f"{previous.text} {token.text}"
         return Habit(
             f"`{whole}` is two quantities",
-            "a second quantity",
-            token.start,
+            "expected one quantity",
+            previous.start,
             token.end,
             (f"write `{previous.text} + {token.text}`",),
         )

@@ -9,6 +9,7 @@ import marshal
 import os
 import sys
 import zlib
+from contextlib import suppress
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
@@ -102,4 +103,5 @@ def _write(path: Path, key: tuple[Any, ...], tables: Tables) -> None:
         aside.write_bytes(zlib.crc32(payload).to_bytes(4, "big") + payload)
         aside.replace(path)
     except OSError:
-        return
+        with suppress(OSError):
+            aside.unlink(missing_ok=True)

@@ -41,9 +41,10 @@ def _diagnostic(diagnostic: Diagnostic, sources: Sources, color: bool) -> str:
     files = _marks_by_file(diagnostic, sources)
     width = max((len(str(mark.line)) for _, marks in files for mark in marks), default=1)
     for index, (file, marks) in enumerate(files):
-        where = _where(file, marks, sources, diagnostic)
+        if index and files[index - 1][1]:
+            lines.append(_gutter("", width, color))
         arrow = paint(f"{' ' * width}{'-->' if index == 0 else ':::'}", "gutter", color)
-        lines.append(f"{arrow} {where}")
+        lines.append(f"{arrow} {_where(file, marks, sources, diagnostic)}")
         if marks:
             lines.append(_gutter("", width, color))
             lines.extend(_source_lines(sources[file], marks, width, severity, color))
@@ -88,7 +89,10 @@ def _where(file: str, marks: Iterable[_Mark], sources: Sources, diagnostic: Diag
     span = diagnostic.span
     source = sources.get(file)
     if source is None:
-        return visible(file)
+        said = [label.message for label in diagnostic.labels if label.span.file == file]
+        if span is not None and span.file == file:
+            said.insert(0, diagnostic.label)
+        return ": ".join(visible(part) for part in (file, *said) if part)
     if span is not None and span.file == file:
         position = source.position(span.start)
         return f"{visible(file)}:{position.line}:{position.column}"
