@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from xei_lang.syntax.ast import Module
     from xei_lang.ir.goals import MotionGoalGraph
     from xei_lang.ir.timed import TimedPlan
+    from xei_lang.motion.verify import Checked
 
 Progress = Callable[[str, int, int], None]
 """Called by long passes with the pass's name, how much is done and how much there is."""
@@ -36,6 +37,8 @@ class Request:
     params: tuple[tuple[str, str], ...] = ()
     open_bindings: bool = False
     max_steps: int = 100_000
+    allow_unmapped: bool = False
+    strict: bool = False
     seed: int = 0
     rate_hz: float = 100.0
     progress: Progress | None = field(default=None, compare=False)
@@ -51,6 +54,7 @@ class Handoffs:
     world: World | None = None
     graph: MotionGoalGraph | None = None
     timed: TimedPlan | None = None
+    verified: Checked | None = None
 
 
 class Pass(Protocol):
@@ -133,7 +137,7 @@ class LoadProfile:
 
     def __call__(self, request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
         from xei_lang.check import profile_name
-        from xei_lang.profiles.load import open_profile
+        from xei_lang.profiles.open import open_profile
 
         assert made.module is not None
         named = profile_name(made.module)
@@ -161,6 +165,21 @@ class Check:
         )
         plan, said = check_module(made.module, request.source, made.profile, options)
         return replace(made, plan=plan), said
+
+
+@dataclass(frozen=True, slots=True)
+class Admit:
+    """What a compilation refuses that a check only reports: gaps in the plan, and in strict mode placeholders."""
+
+    name: str = "admit"
+    adds: str = "plan"
+
+    def __call__(self, request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
+        from xei_lang.check.admission import admit
+
+        assert made.plan is not None
+        assert made.profile is not None
+        return made, admit(made.plan, made.profile, request.allow_unmapped, request.strict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -203,8 +222,8 @@ class PlanMotion:
     adds: str = "timed"
 
     def __call__(self, request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
-        from xei_lang.motion.plan import plan_motion
-        from xei_lang.profiles.load import robot_texts
+        from xei_lang.motion.plan import RobotDescription, plan_motion
+        from xei_lang.profiles.open import robot_texts
 
         assert made.profile is not None
         assert made.graph is not None
@@ -214,7 +233,7 @@ class PlanMotion:
             made.graph,
             made.world,
             made.profile,
-            robot_texts(made.profile),
+            RobotDescription(*robot_texts(made.profile)),
             request.seed,
             None if report is None else lambda done, total: report("motion", done, total),
         )
@@ -226,22 +245,26 @@ class Verify:
     """`TimedPlan` against everything that it must keep, by code that shares nothing with the planner."""
 
     name: str = "verify"
-    adds: str = "timed"
+    adds: str = "verified"
 
     def __call__(self, request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
-        from xei_lang.motion.verify import verify_timed
-        from xei_lang.profiles.load import robot_texts
+        from xei_lang.motion.verify import RobotDescription, to_diagnostics, verify_timed
+        from xei_lang.profiles.open import robot_texts
 
         assert made.profile is not None
         assert made.timed is not None
         assert made.graph is not None
         assert made.world is not None
-        report = verify_timed(made.timed, made.graph, made.world, robot_texts(made.profile), made.profile)
-        return replace(made, timed=report.with_margins(made.timed)), report.diagnostics()
+        robot = RobotDescription(*robot_texts(made.profile))
+        limits = made.profile.calibration.limits
+        report = verify_timed(made.timed, made.graph, made.world, robot, limits)
+        margins = (*made.timed.margins, *report.margins)
+        said = to_diagnostics(report, made.graph)
+        return replace(made, timed=replace(made.timed, margins=margins), verified=report.checked), said
 
 
 FRONT: tuple[Pass, ...] = (Parse(), LoadProfile(), Check())
 """What `xei check` runs."""
 
-ALL: tuple[Pass, ...] = (*FRONT, Ground(), Lower(), PlanMotion(), Verify())
+ALL: tuple[Pass, ...] = (*FRONT, Admit(), Ground(), Lower(), PlanMotion(), Verify())
 """The whole way to timed, verified motion."""

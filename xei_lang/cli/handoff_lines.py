@@ -6,7 +6,7 @@ from xei_lang.pipeline import Handoffs, PassResult
 
 def handoff_line(result: PassResult) -> str:
     """`check    SkillPlan        2 steps, 0 unmapped requests          3 ms`."""
-    name, content = ("failed", "see above") if result.failed else _SEEN[result.pass_name](result.made)
+    name, content = _SEEN[result.pass_name](result.made)
     return line(result.pass_name, name, content, result.seconds)
 
 
@@ -61,8 +61,9 @@ def _verified(made: Handoffs) -> tuple[str, str]:
     assert timed is not None
     nearest = {margin.name: margin for margin in timed.margins}
     clearance = nearest.get("clearance")
-    said = "no finding at 1 kHz"
-    return "TimedPlan", said if clearance is None else f"{said}, nearest {clearance.value * 1000:.1f} mm ({clearance.where})"
+    assert made.verified is not None
+    said = f"{made.verified.configurations} configurations, no finding"
+    return "verified", said if clearance is None else f"{said}, nearest {clearance.value * 1000:.1f} mm ({clearance.where})"
 
 
 def _count(number: int, noun: str, plural: str | None = None) -> str:
@@ -78,3 +79,6 @@ _SEEN = {
     "motion": _timed,
     "verify": _verified,
 }
+
+SHOWN = frozenset(_SEEN)
+"""The passes that make a handoff; the others only let it through."""

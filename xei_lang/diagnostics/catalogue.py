@@ -46,6 +46,8 @@ _ENTRIES = {
     "XEI0213": Entry("two protocols in one file"),
     "XEI0214": Entry("a procedure that calls itself"),
     "XEI0215": Entry("a role or type that nothing has"),
+    "XEI0240": Entry("a request that no skill does stands in a protocol that is compiled"),
+    "XEI0241": Entry("a placeholder stands in a profile that is used strictly"),
     # 03xx types, units and arguments
     "XEI0301": Entry("an argument that a skill or procedure does not have"),
     "XEI0302": Entry("an argument that is missing"),

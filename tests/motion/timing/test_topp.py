@@ -71,3 +71,13 @@ def test_samples_end_exactly_at_the_end() -> None:
     assert samples.times_s[-1] == 2.0 + knots.times_s[-1]
     assert samples.positions[-1] == pytest.approx((1.0,) * 4, abs=1e-9)
     assert samples.velocities[-1] == pytest.approx((0.0,) * 4, abs=1e-6)
+
+
+@pytest.mark.parametrize("fraction", [0.45, 0.2, 0.08, 0.02])
+def test_a_corner_far_sharper_than_the_grid_is_timed_too(fraction: float) -> None:
+    waypoints = np.random.default_rng(3).uniform(-1.5, 1.5, (7, 4))
+    knots = parameterise(blended_path(JOINTS, waypoints, fraction), LIMITS, pendulum)
+    assert isinstance(knots, Knots)
+    _, dq, ddq = evaluate(knots, np.arange(0.0, knots.times_s[-1], 1e-4))
+    assert np.abs(dq).max() <= 2.5
+    assert np.abs(ddq).max() <= 8.0

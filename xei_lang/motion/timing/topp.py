@@ -67,11 +67,16 @@ def still(path: JointPath, duration_s: float = 0.0) -> Knots:
 
 
 def _grid(path: JointPath, intervals: int) -> Array:
-    """Grid points: the path's own breaks and an even division, finer towards the ends where speed is low."""
-    even = np.linspace(0.0, 1.0, intervals + 1)
-    ends = np.array([0.001, 0.004, 0.996, 0.999])
-    grid = np.unique(np.concatenate([path.breaks, path.length * even, path.length * ends]))
-    keep = np.concatenate([[True], np.diff(grid) > 1e-6 * path.length])
+    """Grid points: an even division, finer towards the ends where speed is low, and every piece of the path divided,
+
+    for a sharp corner is a piece that is shorter than an interval, and its curvature vanishes at its two ends.
+    """
+    even = path.length * np.linspace(0.0, 1.0, intervals + 1)
+    ends = path.length * np.array([0.001, 0.004, 0.996, 0.999])
+    share = np.linspace(0.0, 1.0, intervals // 12 + 1)
+    within = (path.breaks[:-1, None] + np.diff(path.breaks)[:, None] * share).ravel()
+    grid = np.unique(np.concatenate([path.breaks, even, ends, within]))
+    keep = np.concatenate([[True], np.diff(grid) > 1e-7 * path.length])
     grid = grid[keep]
     grid[-1] = path.length
     return grid
