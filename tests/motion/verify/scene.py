@@ -64,7 +64,7 @@ def limits() -> tuple[JointLimit, ...]:
         if bound is None:
             continue
         slide, finger = name == "slide_joint", "finger" in name
-        velocity, acceleration = (0.1, 0.1) if slide else (0.06, 0.3) if finger else (2.5, 6.0)
+        velocity, acceleration = (0.1, 0.5) if slide else (0.2, 2.0) if finger else (2.5, 10.0)
         lower, upper, effort = (float(str(bound.get(key))) for key in ("lower", "upper", "effort"))
         made.append(JointLimit(name, lower, upper, velocity, acceleration, effort))
     return tuple(made)
@@ -84,7 +84,7 @@ class Story:
 
     def move(
         self, kind: str, action: Action, resource: str, rows: Sequence[Joints], moved: Sequence[str],
-        contacts: tuple[tuple[str, str], ...] = (), share: float = 0.7, beside: bool = False, arm: str | None = None,
+        contacts: tuple[tuple[str, str], ...] = (), share: float = 0.95, beside: bool = False, arm: str | None = None,
     ) -> None:  # fmt: skip
         """A goal with a trajectory through `rows`; `beside` runs it together with the goal before."""
         by_name = {limit.joint: limit for limit in limits()}
@@ -239,7 +239,7 @@ def tour() -> Case:
         story.move("slide_move", SlideMove(height), "slide", rows, ["slide_joint"])
 
     right("ready")
-    slide(0.33)
+    slide(0.32)
     story.act("wait", Wait(0.2), "person", 0.2)
     right("transport")
     T_world_base = Pose.from_rpy((0.0, 3.0, 0.0), (0.0, 0.0, 1.0))

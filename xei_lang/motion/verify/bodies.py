@@ -89,17 +89,16 @@ class Bodies:
         radius = float(np.linalg.norm(points - center, axis=1).max())
         return Body(name, is_link, shapes, center, radius, low, high)
 
-    def add_pairs(self, pairs: list[tuple[str, str]]) -> None:
-        """Make these pairs of bodies known; distances can be asked for once all are."""
-        for a, b in pairs:
-            if (a, b) in self._pairs:
-                continue
-            first = len(self.geometry.collisionPairs)
-            for i in self.bodies[a].shapes:
-                for j in self.bodies[b].shapes:
-                    self.geometry.addCollisionPair(pin.CollisionPair(min(i, j), max(i, j)))
-            self._pairs[a, b] = tuple(range(first, len(self.geometry.collisionPairs)))
-            self.geometry_data = None
+    def add_pair(self, pair: tuple[str, str]) -> None:
+        """Make the shapes of a pair of bodies known as pairs whose distance can be asked for."""
+        if pair in self._pairs:
+            return
+        first = len(self.geometry.collisionPairs)
+        for i in self.bodies[pair[0]].shapes:
+            for j in self.bodies[pair[1]].shapes:
+                self.geometry.addCollisionPair(pin.CollisionPair(min(i, j), max(i, j)))
+        self._pairs[pair] = tuple(range(first, len(self.geometry.collisionPairs)))
+        self.geometry_data = None
 
     def shape_pairs(self, pair: tuple[str, str]) -> tuple[int, ...]:
         """Indices of a body pair's shape pairs."""

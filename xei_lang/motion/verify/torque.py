@@ -43,7 +43,9 @@ def check_torque(context: Context) -> None:
 
 def _torques(pool: Any, phase: Phase) -> Array:
     rows = (np.asfortranarray(rows.T) for rows in (phase.q, phase.v, phase.a))
-    return np.asarray(pin.rneaInParallel(1, pool, *rows)).T
+    torque = np.zeros(phase.q.T.shape, order="F")
+    pin.rneaInParallel(1, pool, *rows, torque)
+    return torque.T
 
 
 def _pool(context: Context, held: tuple[Held, ...]) -> Any:
