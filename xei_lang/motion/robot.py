@@ -56,12 +56,12 @@ class Robot:
     data: Any = field(repr=False, compare=False)
     urdf_text: str = field(repr=False)
     srdf_text: str = field(repr=False)
-    joint_names: tuple[str, ...]
-    arms: Mapping[Side, ArmChain] = field(compare=False)
+    joint_names: tuple[str, ...] = field(repr=False)
+    arms: Mapping[Side, ArmChain] = field(repr=False, compare=False)
     slide_index: int
     slide_axis: tuple[float, float, float]
-    states: Mapping[str, Mapping[str, float]] = field(compare=False)
-    disabled_pairs: tuple[tuple[str, str], ...]
+    states: Mapping[str, Mapping[str, float]] = field(repr=False, compare=False)
+    disabled_pairs: tuple[tuple[str, str], ...] = field(repr=False)
     lower: Array = field(repr=False, compare=False)
     upper: Array = field(repr=False, compare=False)
     rated_velocity: Array = field(repr=False, compare=False)

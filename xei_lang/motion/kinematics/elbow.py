@@ -16,7 +16,7 @@ _RADIANS_OF_ROUNDING = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Elbow:
-    """Vectors are in base_link at q4 = 0; `across_x` is axis x x, and `across_axis` the matrix S with `x @ S = x x axis`.
+    """Vectors are in base_link at q4 = 0; `across_x` is axis x x, and `across_axis` is `across(axis)`.
 
     `upper_arm` leads from the elbow to the shoulder and `forearm` to the wrist; `axis` is the hinge.
     |wrist - shoulder|^2 = |upper_arm|^2 + |forearm|^2 - 2 amplitude cos(q4 - phase), by the law of cosines.
@@ -52,7 +52,8 @@ class Elbow:
         cosine, sine = np.cos(angle)[:, None], np.sin(angle)[:, None]
         before = cosine * self.forearm + sine * self.across_forearm - self.upper_arm
         after = self.forearm - cosine * self.upper_arm + sine * self.across_upper_arm
-        return self._frame(before), self._frame(after)
+        length = np.sqrt((before * before).sum(axis=1, keepdims=True))
+        return self._frame(before / length), self._frame(after / length)
 
     def bend_of(self, angle: float) -> float:
         """The sign of `angle`'s bend; a straight arm has the first that the limits leave."""
@@ -61,9 +62,9 @@ class Elbow:
 
     def _frame(self, along: Array) -> Array:
         frame = np.empty((len(along), 3, 3))
-        frame[:, :, 0] = along / np.sqrt((along * along).sum(axis=1, keepdims=True))
+        frame[:, :, 0] = along
         frame[:, :, 1] = self.axis
-        frame[:, :, 2] = frame[:, :, 0] @ self.across_axis
+        frame[:, :, 2] = along @ self.across_axis
         return frame
 
 
@@ -82,7 +83,7 @@ def elbow(geometry: SrsGeometry) -> Elbow:
         axis=a,
         across_upper_arm=np.cross(a, v),
         across_forearm=np.cross(a, u),
-        across_axis=np.array([[0.0, -a[2], a[1]], [a[2], 0.0, -a[0]], [-a[1], a[0], 0.0]]),
+        across_axis=across(a),
         squares=squares,
         phase=phase,
         amplitude=amplitude,
@@ -91,3 +92,9 @@ def elbow(geometry: SrsGeometry) -> Elbow:
         bends=tuple(sign for sign in (1.0, -1.0) if bool(np.any(sign * sines > 1e-9))),
         reach_m=(float(min(distances)), float(max(distances))),
     )
+
+
+def across(axis: Array) -> Array:
+    """The matrix (3, 3) with which a row vector times it is its cross product with `axis`."""
+    x, y, z = (float(value) for value in axis)
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

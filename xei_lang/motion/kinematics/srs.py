@@ -13,26 +13,26 @@ is one of many. Feasible intervals narrower than rounding (1e-12 rad) may be mis
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from xei_lang.motion.kinematics import swivel
-from xei_lang.motion.kinematics.elbow import Elbow, elbow
+from xei_lang.motion.kinematics.elbow import Elbow, across, elbow
 from xei_lang.motion.kinematics.geometry import Spherical, SrsGeometry
 from xei_lang.motion.kinematics.solver import Solutions
 from xei_lang.motion.robot import Array
 
 CONFIGURATIONS_PER_POSE = 20
-_ON_FIRST_AXIS = 1e-6
+_ON_FIRST_AXIS = 1e-4
 _NARROWEST_RAD = 1e-12
 _SIGNS = np.array([1.0, -1.0])
 
 
 @dataclass(frozen=True, slots=True)
 class _Poses:
-    """Tool poses with all but the swivel angle settled: entries (m, 2, 3, 5) of shoulder and wrist, elbow (m,)."""
+    """Tool poses with all but the swivel angle settled: entries (m, 2, 3, 9) of shoulder and wrist, elbow (m,)."""
 
     entries: Array
     elbow: Array
@@ -46,9 +46,11 @@ class SrsArm:
     `shoulder_flips` and `wrist_flips` (b,) tell each branch that limits leave: 0 the sign +1, 1 the sign -1.
     """
 
-    geometry: SrsGeometry
-    elbow: Elbow
-    limits: swivel.Limits
+    geometry: SrsGeometry = field(repr=False)
+    elbow: Elbow = field(repr=False)
+    limits: swivel.Limits = field(repr=False)
+    across_axes: tuple[Array, Array] = field(repr=False)
+    R_tool_wrist: Array = field(repr=False)
     shoulder_flips: NDArray[np.int64]
     wrist_flips: NDArray[np.int64]
 
@@ -100,37 +102,34 @@ class SrsArm:
         lifted = np.multiply.outer(np.asarray(slide_m, dtype=np.float64), g.slide_axis) + g.shoulder
         return T_base_tool[:, :3, 3] + T_base_tool[:, :3, :3] @ g.wrist_in_tool - lifted
 
-    def _reference_frame(self, along: Array) -> Array:
-        """Frames (m, 3, 3) that the swivel turns: x the given direction, y next to the arm's first axis."""
-        basis = self.geometry.shoulder_joint.basis
-        frame = np.empty((len(along), 3, 3))
-        x = along / np.sqrt((along * along).sum(axis=1, keepdims=True))
-        y: Array = basis[:, 2] - (x @ basis[:, 2:]) * x
-        length = np.sqrt((y * y).sum(axis=1, keepdims=True))
-        on_axis = length[:, 0] < _ON_FIRST_AXIS
-        if on_axis.any():
-            other = basis[:, 0] - (x @ basis[:, :1]) * x
-            y = np.where(on_axis[:, None], other, y)
-            length = np.sqrt((y * y).sum(axis=1, keepdims=True))
-        y = y / length
-        frame[:, :, 0], frame[:, :, 1] = x, y
-        frame[:, 0, 2] = x[:, 1] * y[:, 2] - x[:, 2] * y[:, 1]
-        frame[:, 1, 2] = x[:, 2] * y[:, 0] - x[:, 0] * y[:, 2]
-        frame[:, 2, 2] = x[:, 0] * y[:, 1] - x[:, 1] * y[:, 0]
+    def _reference_frame(self, direction: Array) -> Array:
+        """Frames (m, 3, 3) that the swivel turns: x the given unit vector, y next to the arm's first axis."""
+        x, axis = direction, self.geometry.shoulder_joint.basis[:, 2]
+        z = x @ self.across_axes[0]
+        length = np.sqrt((z * z).sum(axis=1, keepdims=True))
+        if length.min(initial=1.0) < _ON_FIRST_AXIS:
+            near = length < _ON_FIRST_AXIS
+            axis = np.where(near, self.geometry.shoulder_joint.basis[:, 0], axis)
+            z = np.where(near, x @ self.across_axes[1], z)
+            length = np.sqrt((z * z).sum(axis=1, keepdims=True))
+        frame = np.empty((len(x), 3, 3))
+        frame[:, :, 0] = x
+        frame[:, :, 1] = (axis - (x * axis).sum(axis=1, keepdims=True) * x) / length
+        frame[:, :, 2] = z / length
         return frame
 
     def _poses(self, T_base_tool: Array, slide_m: float | Array, bend: float) -> _Poses:
         g = self.geometry
         along = self._shoulder_to_wrist(T_base_tool, slide_m)
-        angle, valid = self.elbow.angle(np.sqrt((along * along).sum(axis=1)), bend)
+        distance = np.sqrt((along * along).sum(axis=1))
+        angle, valid = self.elbow.angle(distance, bend)
         before, after = self.elbow.frames(angle)
-        reference = self._reference_frame(along)
-        turned = g.R_base_tool_zero.T @ g.wrist_joint.after
+        reference = self._reference_frame(along / np.maximum(distance, 1e-300)[:, None])
         left, right = np.empty((2, len(along), 2, 3, 3))
         np.matmul(g.shoulder_joint.basis.T, reference, out=left[:, 0])
         np.matmul(g.wrist_joint.basis.T, after, out=left[:, 1])
         np.matmul(g.shoulder_joint.after.T, before, out=right[:, 0])
-        np.matmul((T_base_tool[:, :3, :3] @ turned).transpose(0, 2, 1), reference, out=right[:, 1])
+        np.matmul((T_base_tool[:, :3, :3] @ self.R_tool_wrist).transpose(0, 2, 1), reference, out=right[:, 1])
         return _Poses(swivel.entries(left, right), angle, valid)
 
     def _solve_bend(self, T_base_tool: Array, slide_m: float | Array, bend: float) -> list[Solutions]:
@@ -141,6 +140,9 @@ class SrsArm:
         flips[:, 0, 0] = _SIGNS[self.shoulder_flips[samples.column]]
         flips[:, 1, 0] = _SIGNS[self.wrist_flips[samples.column]]
         turned = swivel.joint_angles(poses.entries[samples.row], samples.angle, flips, self.limits)
+        sound = swivel.within(turned, self.limits)[:, :, 0].all(axis=1)
+        if not sound.all():
+            samples, turned = samples.chosen(sound), turned[sound]
         q = self._assembled(turned, poses.elbow[samples.row])
         branch = (self.shoulder_flips + 2 * self.wrist_flips + (4 if bend < 0 else 0))[samples.column]
         angle = swivel.wrapped(samples.angle)
@@ -173,6 +175,8 @@ def srs_arm(geometry: SrsGeometry) -> SrsArm:
         geometry=geometry,
         elbow=elbow(geometry),
         limits=swivel.limits(joints, lower, upper),
+        across_axes=(across(geometry.shoulder_joint.basis[:, 2]), across(geometry.shoulder_joint.basis[:, 0])),
+        R_tool_wrist=geometry.R_base_tool_zero.T @ geometry.wrist_joint.after,
         shoulder_flips=np.repeat(np.array(shoulder), len(wrist)),
         wrist_flips=np.tile(np.array(wrist), len(shoulder)),
     )

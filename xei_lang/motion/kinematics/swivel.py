@@ -18,11 +18,11 @@ from xei_lang.motion.robot import Array
 
 Mask = NDArray[np.bool_]
 TWO_PI = 2.0 * np.pi
-ANGLE_TOLERANCE = 1e-9
+ANGLE_TOLERANCE = 1e-10
 
-# Entries of M = Rz(q1) Ry(t) Rz(q3) in the order that this file keeps them: M22, M02, M12, M20, M21.
-_ROWS = np.array([2, 0, 1, 2, 2])
-_COLUMNS = np.array([2, 2, 2, 0, 1])
+# Entries of M = Rz(q1) Ry(t) Rz(q3) in the order that this file keeps them; the first five tell where limits are met.
+_ROWS = np.array([2, 0, 1, 2, 2, 0, 0, 1, 1])
+_COLUMNS = np.array([2, 2, 2, 0, 1, 0, 1, 0, 1])
 _TURN = np.array([[1.0], [-1.0]])
 
 
@@ -53,12 +53,12 @@ def limits(joints: tuple[Spherical, Spherical], lower: Array, upper: Array) -> L
 
 
 def entries(left: Array, right: Array) -> Array:
-    """Coefficients (m, 2, 3, 5) of 1, cos and sin of psi in the kept entries of `left Rx(psi) right.T`.
+    """Coefficients (m, 2, 3, 9) of 1, cos and sin of psi in the kept entries of `left Rx(psi) right.T`.
 
     left, right: (m, 2, 3, 3) for shoulder and wrist; the wrist turns by -psi.
     """
     p, q = left[:, :, _ROWS, :], right[:, :, _COLUMNS, :]
-    result = np.empty((len(left), 2, 3, 5))
+    result = np.empty((len(left), 2, 3, 9))
     np.multiply(p[..., 0], q[..., 0], out=result[:, :, 0])
     result[:, :, 1] = p[..., 1] * q[..., 1] + p[..., 2] * q[..., 2]
     result[:, :, 2] = (p[..., 2] * q[..., 1] - p[..., 1] * q[..., 2]) * _TURN
@@ -67,14 +67,14 @@ def entries(left: Array, right: Array) -> Array:
 
 def critical_angles(coefficients: Array, bounds: Limits) -> Array:
     """Sorted angles (m, 24) in [-pi, pi) at which a joint may meet a limit; -pi stands for each root that is not there."""
-    equations = coefficients @ bounds.equations
+    equations = coefficients[..., :5] @ bounds.equations
     constant = equations[:, :, 0] + bounds.constants
     cosine, sine = equations[:, :, 1], equations[:, :, 2]
     with np.errstate(invalid="ignore", divide="ignore"):
         half = np.arccos(-constant / np.sqrt(cosine * cosine + sine * sine))
     centre = np.arctan2(sine, cosine)
-    roots = wrapped(np.stack([centre - half, centre + half], axis=1).reshape(len(coefficients), -1))
-    angles = np.fmax(roots, -np.pi)
+    roots = np.concatenate([centre - half, centre + half], axis=1).reshape(len(coefficients), -1)
+    angles = np.fmax(wrapped(roots), -np.pi)
     angles.sort(axis=1)
     return angles
 
@@ -87,18 +87,22 @@ def wrapped(angle: Array) -> Array:
 def joint_angles(coefficients: Array, swivel_angle: Array, flips: Array, bounds: Limits) -> Array:
     """Joint angles (n, ..., 2, f, 3) at swivel angles (n, ...) of shoulder and wrist, one row for each flip.
 
-    coefficients: (n, 2, 3, 5) as `entries` gives them. flips: broadcast to (..., 2, f), the sign of sin(q2 + offset). Each angle is the
+    coefficients: (n, 2, 3, 9) as `entries` gives them. flips: broadcast to (..., 2, f), the sign of sin(q2 + offset). Each angle is the
     representative nearest to the middle of its limits.
     """
     weights = np.ones((*swivel_angle.shape, 3))
     np.cos(swivel_angle, out=weights[..., 1])
     np.sin(swivel_angle, out=weights[..., 2])
     values = (weights[..., None, None, :] @ coefficients)[..., 0, :]
-    m22, m02, m12, m20, m21 = (values[..., None, k] for k in range(5))
+    m22, m02, m12, _, _, m00, m01, m10, m11 = (values[..., None, k] for k in range(9))
+    size = np.sqrt(m02 * m02 + m12 * m12)
     result = np.empty((*values.shape[:-1], flips.shape[-1], 3))
     np.arctan2(flips * m12, flips * m02, out=result[..., 0])
-    np.arctan2(flips * np.sqrt(m02 * m02 + m12 * m12), m22, out=result[..., 1])
-    np.arctan2(flips * m21, -flips * m20, out=result[..., 2])
+    np.arctan2(flips * size, m22, out=result[..., 1])
+    # The third angle follows from the first, not from M20 and M21: where the outer axes come in line these are all
+    # rounding, and the sum of the two angles would be too.
+    cosine, sine = np.cos(result[..., 0]), np.sin(result[..., 0])
+    np.arctan2(cosine * m10 - sine * m00, cosine * m11 - sine * m01, out=result[..., 2])
     result[..., 1] -= bounds.offset
     result -= bounds.middle
     result -= TWO_PI * np.rint(result / TWO_PI)
@@ -126,6 +130,10 @@ class Samples:
     column: NDArray[np.int64]
     angle: Array
 
+    def chosen(self, mask: Mask) -> Samples:
+        """The samples (n,) of which the mask is true."""
+        return Samples(self.row[mask], self.column[mask], self.angle[mask])
+
 
 def sample_intervals(cuts: Array, feasible: Mask, count: int) -> Samples:
     """About `count` angles a row, spread over the feasible intervals in proportion, at least the middle of each.
@@ -133,11 +141,11 @@ def sample_intervals(cuts: Array, feasible: Mask, count: int) -> Samples:
     cuts: (m, k) sorted angles. feasible: (m, b, k) whether the interval from cut k to the next, past the last to the
     first around the circle, is feasible for branch b. An interval across the first cut counts as two.
     """
-    padded = np.zeros((*feasible.shape[:2], feasible.shape[2] + 2), dtype=np.int8)
+    padded = np.zeros((*feasible.shape[:2], feasible.shape[2] + 2), dtype=np.bool_)
     padded[:, :, 1:-1] = feasible
-    steps = np.diff(padded, axis=2)
-    row, column, first = np.nonzero(steps == 1)
-    last = np.nonzero(steps == -1)[2]
+    before, after = padded[:, :, :-1], padded[:, :, 1:]
+    row, column, first = np.nonzero(after > before)
+    last = np.nonzero(before > after)[2]
     ends = np.concatenate([cuts, cuts[:, :1] + TWO_PI], axis=1)
     start = ends[row, first]
     length = ends[row, last] - start
