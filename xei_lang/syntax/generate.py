@@ -15,15 +15,7 @@ from xei_lang.syntax.tables import STARTS, Rule, Tables
 
 def make_tables(grammar: str, *, strict: bool = False) -> Tables:
     """Analyse a grammar; `strict` makes lark raise GrammarError or LexError on any conflict or collision."""
-    lark: Any = Lark(
-        grammar,
-        parser="lalr",
-        lexer="contextual",
-        start=list(STARTS),
-        keep_all_tokens=True,
-        maybe_placeholders=True,
-        strict=strict,
-    )
+    lark = _analyse(grammar, strict)
     table: Any = lark.parser.parser._parse_table
     rules: dict[Any, int] = {rule: index for index, rule in enumerate(lark.rules)}
     numbers = _state_numbers(table)
@@ -44,6 +36,19 @@ def make_tables(grammar: str, *, strict: bool = False) -> Tables:
         words=words,
         signs=signs,
         ignored=tuple(sorted(str(name) for name in lark.ignore_tokens)),
+    )
+
+
+def _analyse(grammar: str, strict: bool) -> Any:
+    """Untyped on purpose: what is read from it are internals that lark does not annotate."""
+    return Lark(
+        grammar,
+        parser="lalr",
+        lexer="contextual",
+        start=list(STARTS),
+        keep_all_tokens=True,
+        maybe_placeholders=True,
+        strict=strict,
     )
 
 
