@@ -22,13 +22,20 @@ class Speeds:
     velocity: Array
     acceleration: Array
 
+    def scaled(self, fraction: float) -> Speeds:
+        """The limits of a move at a fraction of full speed: time stretched, so accelerations by its square."""
+        return Speeds(self.velocity * fraction, self.acceleration * fraction**2)
+
     def travel_s(self, q_from: Array, q_to: Array) -> Array:
         """Lower bound (a, b) of the rest-to-rest time between configurations (a, n) and (b, n): the slowest joint's."""
-        distance = np.abs(q_to[None, :, :] - q_from[:, None, :])
+        return self.of_distance(np.abs(q_to[None, :, :] - q_from[:, None, :]))
+
+    def of_distance(self, distance: Array) -> Array:
+        """Lower bound (...) of the rest-to-rest time over distances (..., n) of the joints."""
         ramp = self.velocity**2 / self.acceleration
         short = 2.0 * np.sqrt(distance / self.acceleration)
         long = distance / self.velocity + self.velocity / self.acceleration
-        return np.where(distance < ramp, short, long).max(axis=2)
+        return np.where(distance < ramp, short, long).max(axis=-1)
 
 
 @dataclass(frozen=True, slots=True)

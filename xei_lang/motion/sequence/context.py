@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 @dataclass(frozen=True, slots=True)
 class Context:
     """The unchanging side of a planning problem. `limits` maps a joint's name to its planning limits; `bare` is the collision
-    scene of the robot alone.
+    scene of the robot alone; `scenes` remembers scenes by their content (`space.py`).
     """
 
     robot: Robot
@@ -34,6 +34,7 @@ class Context:
     world: World
     profile: Profile
     seed: int
+    scenes: dict[object, CollisionScene] = field(default_factory=dict[object, CollisionScene], repr=False)
 
     def arm_joints(self, side: Side) -> tuple[str, ...]:
         """The slide and the joints of an arm: what a transit moves, in this order everywhere in this package."""

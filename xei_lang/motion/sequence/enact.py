@@ -35,13 +35,14 @@ def carry_out(context: Context, layer: Layer, index: int, start: Snapshot) -> tu
     None where a straight line leaves the arm's limits on its way.
     """
     chain, now, target = layer.chain, start, 0
+    told = choice_text(layer, index, start)
     motions: list[Motion] = []
     for goal in chain.goals[1:]:
         if isinstance(goal.action, MoveTo):
-            motion = _straight(context, layer, index, target, goal, now)
+            motion = _straight(context, layer, index, target, goal, now, told)
             target += 1
         else:
-            motion = _hand_action(context, layer, index, target, goal, now)
+            motion = _hand_action(context, layer, index, target, goal, now, told)
         if motion is None:
             return None
         motions.append(motion)
@@ -50,7 +51,7 @@ def carry_out(context: Context, layer: Layer, index: int, start: Snapshot) -> tu
 
 
 def _straight(
-    context: Context, layer: Layer, index: int, target: int, goal: MotionGoal, before: Snapshot
+    context: Context, layer: Layer, index: int, target: int, goal: MotionGoal, before: Snapshot, told: str
 ) -> Motion | None:
     chain, move = layer.chain, goal.action
     assert isinstance(move, MoveTo)
@@ -60,7 +61,7 @@ def _straight(
     after = before.moved(context.lift(before.q, chain.arm, layer.q[index, target + 1]))
     return Motion(
         goal, before, after, path, "spline",
-        speed_fraction=move.speed_fraction, arm=chain.arm, choice=choice_text(layer, index, before),
+        speed_fraction=move.speed_fraction, arm=chain.arm, choice=told,
     )  # fmt: skip
 
 
@@ -78,7 +79,7 @@ def straight_path(context: Context, layer: Layer, index: int, target: int) -> Jo
 
 
 def _hand_action(
-    context: Context, layer: Layer, index: int, target: int, goal: MotionGoal, before: Snapshot
+    context: Context, layer: Layer, index: int, target: int, goal: MotionGoal, before: Snapshot, told: str
 ) -> Motion:
     chain, action = layer.chain, goal.action
     member = int(layer.member[index])
@@ -87,13 +88,13 @@ def _hand_action(
     if isinstance(action, Attach):
         held = take(chain, action, target, member, before)
         after = before.attached(action.arm, held)
-        return Motion(goal, before, after, arm=action.arm, choice=choice_text(layer, index, after))
+        return Motion(goal, before, after, arm=action.arm, choice=told)
     if isinstance(action, Detach):
         held = before.held[action.arm]
         T_base_object = pose_of(layer.poses[target, member]) @ held.T_tool_object
         after = before.detached(action.arm, T_base_object)
         placed = (Placement(held.object, T_base_object),)
-        return Motion(goal, before, after, arm=action.arm, placed=placed, choice=choice_text(layer, index, before))
+        return Motion(goal, before, after, arm=action.arm, placed=placed, choice=told)
     return still(goal, before)
 
 

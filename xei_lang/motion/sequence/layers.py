@@ -38,7 +38,7 @@ class Effort:
     configurations_per_pose: int
 
 
-LEAN = Effort(7, 10, 6)
+LEAN = Effort(5, 8, 5)
 THOROUGH = Effort(13, 10_000, 20)
 
 
@@ -194,6 +194,16 @@ def _layer(context: Context, chain: Chain, poses: Array, rows: Rows) -> Layer:
     margin = np.minimum(arm - lower, upper - arm).min(axis=(1, 2), initial=np.inf)
     discomfort = np.clip(1.0 - margin / _COMFORT_RAD, 0.0, 1.0)
     member_cost = np.array([member.cost for member in chain.family.members])
-    cost = member_cost[rows.member] + _COMFORT_COST_S * discomfort
+    cost = member_cost[rows.member] + _COMFORT_COST_S * discomfort + _straight_s(context, chain, rows)
     orbit = orbits(chain.family)[rows.member] if len(rows.member) else rows.member
     return Layer(chain, poses, rows.q, rows.member, orbit, rows.swivel_angle, rows.branch, cost)
+
+
+def _straight_s(context: Context, chain: Chain, rows: Rows) -> Array:
+    """Lower bound (n,) of the time that the straight moves between a chain's targets take, seconds."""
+    speeds = context.speeds(context.arm_joints(chain.arm))
+    distance = np.abs(np.diff(rows.q, axis=1))
+    total = np.zeros(len(rows))
+    for index, fraction in enumerate(chain.speed_fractions[1:]):
+        total += speeds.scaled(fraction).of_distance(distance[:, index])
+    return total

@@ -27,13 +27,15 @@ from xei_lang.ir.skill_plan import Side
 class Chain:
     """A free move to a family and what follows it at constant slide, swivel and branch.
 
-    `goals[0]` is the free move; `targets` are the tool targets of the moves among `goals`, in order.
+    `goals[0]` is the free move; `targets` are the tool targets of the moves among `goals`, in order, and
+    `speed_fractions` the speeds of these moves.
     """
 
     arm: Side
     family: Family
     goals: tuple[MotionGoal, ...]
     targets: tuple[ToolTarget, ...]
+    speed_fractions: tuple[float, ...]
 
     @property
     def head(self) -> MotionGoal:
@@ -120,7 +122,7 @@ def _chain(goals: tuple[MotionGoal, ...], families: dict[str, Family]) -> Chain:
     targets = tuple(move.target for move in moves if isinstance(move.target, ToolTarget))
     arm = moves[0].arm
     assert arm is not None
-    return Chain(arm, families[targets[0].family], goals, targets)
+    return Chain(arm, families[targets[0].family], goals, targets, tuple(move.speed_fraction for move in moves))
 
 
 def _is_head(goal: MotionGoal) -> bool:

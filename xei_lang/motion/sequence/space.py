@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from xei_lang.ir.geometry import Pose
+from xei_lang.ir.skill_plan import Side
 from xei_lang.motion.collision import AttachedBody, CollisionScene, StaticBody
 from xei_lang.motion.sequence.choose import Bools
 from xei_lang.motion.sequence.context import Context
@@ -28,16 +30,38 @@ class Touch:
 
 
 def scene_of(context: Context, snapshot: Snapshot, allowed: tuple[Pair, ...], with_held: bool = True) -> CollisionScene:
-    """The scene of a snapshot in the base frame, pairs in `allowed` left out; without what the hands hold if so asked."""
+    """The scene of a snapshot in the base frame, pairs in `allowed` left out; without what the hands hold if so asked.
+
+    Scenes of equal content are one scene: compiling one takes longer than asking it a hundred questions.
+    """
+    held = tuple(sorted(snapshot.held.items(), key=lambda item: item[0])) if with_held else ()
+    carried = tuple((side, item.object, item.T_tool_object) for side, item in held if item.member != UNCHOSEN)
+    present = {*snapshot.standing, *(name for _, name, _ in carried)}
+    named = tuple(sorted({pair for pair in allowed if all(_is_present(context, name, present) for name in pair)}))
+    content = (snapshot.T_world_base, tuple(snapshot.standing.items()), carried, named)
+    known = context.scenes.get(content)
+    if known is None:
+        known = context.scenes[content] = _compose(context, snapshot, carried, named)
+    return known
+
+
+def _is_present(context: Context, name: str, objects: set[str]) -> bool:
+    """Whether a body is in the scene: an object that is there, or anything that is no object (a link)."""
+    return name in objects or context.world.find(name) is None
+
+
+def _compose(
+    context: Context, snapshot: Snapshot, carried: tuple[tuple[Side, str, Pose], ...], allowed: tuple[Pair, ...]
+) -> CollisionScene:
     scene = context.bare
     for name in snapshot.standing:
         item = context.world.find(name)
         if item is not None and item.geometry:
             scene = scene.with_standing(StaticBody(name, item.geometry, snapshot.T_base_object(name)))
-    for side, held in sorted(snapshot.held.items()):
-        item = context.world.find(held.object)
-        if item is not None and item.geometry and with_held and held.member != UNCHOSEN:
-            scene = scene.with_attached(AttachedBody(held.object, item.geometry, side, held.T_tool_object))
+    for side, name, T_tool_object in carried:
+        item = context.world.find(name)
+        if item is not None and item.geometry:
+            scene = scene.with_attached(AttachedBody(name, item.geometry, side, T_tool_object))
     return scene.with_allowed(allowed)
 
 
