@@ -1,4 +1,4 @@
-"""SkillPlan as text for people: what is known at the beginning, then a block a step with what it adds to that."""
+"""SkillPlan as text for people: what is known at the beginning, then a block a step with what changes."""
 
 from __future__ import annotations
 
