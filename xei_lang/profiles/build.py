@@ -6,7 +6,7 @@ from typing import TypeVar
 
 from pydantic import ValidationError
 
-from xei_lang.diagnostics import Diagnostic, Diagnostics, Source, has_errors
+from xei_lang.diagnostics import Diagnostic, Diagnostics, Source, Span, has_errors
 from xei_lang.profiles.build_bank import build_bank
 from xei_lang.profiles.build_calibration import build_calibration
 from xei_lang.profiles.build_objects import build_object
@@ -19,6 +19,7 @@ from xei_lang.profiles.schema.development import DevelopmentProfile
 from xei_lang.profiles.schema.registry import ObjectRegistry
 from xei_lang.profiles.schema.usage import ObjectModel, UsageProfile
 from xei_lang.profiles.schema.values import Model
+from xei_lang.profiles.trees import Trees
 from xei_lang.profiles.yaml_reader import read_yaml
 from xei_lang.profiles.yaml_tree import Node
 
@@ -29,14 +30,17 @@ def build_profile(files: ProfileFiles) -> tuple[Profile | None, Diagnostics]:
     """The profile of a folder; None where anything is wrong. Faults of all files come from one run."""
     found: list[Diagnostic] = []
     registry = _read(files, REGISTRY, ObjectRegistry, found)
-    usage = _read(files, registry[0].usage_profile, UsageProfile, found) if registry else None
+    usage = None
+    if registry:
+        named_at = registry[1].span_of("usage_profile")
+        usage = _read(files, registry[0].usage_profile, UsageProfile, found, named_at)
     development = _read(files, DEVELOPMENT, DevelopmentProfile, found)
     calibration = _read(files, CALIBRATION, CalibrationProfile, found)
     if not (registry and usage and development and calibration):
         return None, tuple(found)
     bank = build_bank(development[0], development[1], development[2].text, found)
-    urdf = read_text(files, bank.urdf, found)
-    srdf = read_text(files, bank.srdf, found)
+    urdf = read_text(files, bank.urdf, found, development[1].span_of("robot", "urdf"))
+    srdf = read_text(files, bank.srdf, found, development[1].span_of("robot", "srdf"))
     if urdf is None or srdf is None:
         return None, tuple(found)
     robot, faults = read_robot(urdf, srdf)
@@ -61,15 +65,19 @@ def build_profile(files: ProfileFiles) -> tuple[Profile | None, Diagnostics]:
     if not has_errors(tuple(found)):
         from xei_lang.profiles.checks import check_profile
 
-        found.extend(check_profile(profile))
+        found.extend(check_profile(profile, Trees(usage[1], registry[1], development[1], calibration[1])))
     return (None if has_errors(tuple(found)) else profile), tuple(found)
 
 
 def _read(
-    files: ProfileFiles, name: str, model: type[_M], found: list[Diagnostic]
+    files: ProfileFiles,
+    name: str,
+    model: type[_M],
+    found: list[Diagnostic],
+    named_at: Span | None = None,
 ) -> tuple[_M, Node, Source] | None:
     """One YAML file as a validated model, its tree and its text; None with diagnostics."""
-    source = read_text(files, name, found)
+    source = read_text(files, name, found, named_at)
     if source is None:
         return None
     root, faults = read_yaml(source.file, source.text)
@@ -79,7 +87,8 @@ def _read(
     try:
         return model.model_validate(root.plain()), root, source
     except ValidationError as error:
-        found.extend(explain(error, root, model))
+        told = {fault.span for fault in faults}
+        found.extend(fault for fault in explain(error, root, model) if fault.span not in told)
         return None
 
 

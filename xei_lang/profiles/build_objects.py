@@ -38,7 +38,7 @@ def pose(position: list[Quantity] | None, rpy: list[Quantity] | None) -> Pose:
 def build_object(
     model: ObjectModel, root: Node, path: Path, *, system: bool, found: list[Diagnostic]
 ) -> LabObject | None:
-    """The object that stands at `path` and is named by its end; None, with diagnostics in `found`, where parts do not fit."""
+    """The object at `path`, named by its end; None, with diagnostics in `found`, where parts do not fit."""
     shape = _shape(model.shape, root, (*path, "shape"), found)
     parts = _parts(model, shape, root, path, found)
     prior = _prior(model.prior, root, (*path, "prior"), found) if model.prior else None

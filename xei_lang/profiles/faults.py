@@ -124,8 +124,9 @@ def _wrong_value(details: ErrorDetails, path: Path, root: Node) -> Diagnostic:
         return Diagnostic(
             "XEI0609", f"{shown if node.kind == 'scalar' else name} {reason}", span, label="not a name"
         )
+    reason = reason.removeprefix("be ")
     return Diagnostic(
-        "XEI0609", f"{name} is not right: {shown} should {reason}", root.span_of(*path), label=reason
+        "XEI0609", f"{name} must be {reason}, found {shown}", root.span_of(*path), label=f"expected {reason}"
     )
 
 

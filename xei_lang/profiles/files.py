@@ -52,15 +52,21 @@ def shown_path(path: Path) -> str:
     return (os.path.relpath(absolute, here) if below else absolute).replace(os.sep, "/")
 
 
-def read_text(files: ProfileFiles, name: str, found: list[Diagnostic]) -> Source | None:
-    """The text of one file; None, with a diagnostic, where it is missing, too large or no UTF-8."""
+def read_text(
+    files: ProfileFiles, name: str, found: list[Diagnostic], named_at: Span | None = None
+) -> Source | None:
+    """The text of one file; None, with a diagnostic, where it is missing, too large or no UTF-8.
+
+    `named_at` is the place that names the file, where another file does so.
+    """
     shown = files.shown_path(name)
+    place = named_at or Span(shown, 0, 0)
     if os.path.isabs(name) or ".." in name.split("/"):
         found.append(
             Diagnostic(
                 "XEI0602",
                 f"`{name}` would leave the profile's folder",
-                Span(shown, 0, 0),
+                place,
                 help=("name a file inside the profile's folder",),
             )
         )
@@ -74,7 +80,7 @@ def read_text(files: ProfileFiles, name: str, found: list[Diagnostic]) -> Source
             Diagnostic(
                 "XEI0602",
                 message,
-                Span(shown, 0, 0),
+                place,
                 notes=(
                     f"a profile has `{DEVELOPMENT}`, `{CALIBRATION}`, `{REGISTRY}` and the files they name",
                 ),
@@ -87,7 +93,7 @@ def read_text(files: ProfileFiles, name: str, found: list[Diagnostic]) -> Source
             Diagnostic(
                 "XEI0602",
                 f"`{name}` is larger than {MAX_TEXT_BYTES // 1_000_000} MB",
-                Span(shown, 0, 0),
+                place,
                 help=("keep meshes and recordings in files of their own",),
             )
         )

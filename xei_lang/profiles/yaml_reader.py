@@ -90,7 +90,7 @@ class _Builder:
         mark = error.problem_mark or error.context_mark
         at = min(mark.index, len(self.text)) if mark else 0
         labels = ()
-        if error.context and error.context_mark and error.context_mark is not mark:
+        if error.context and error.context_mark and error.context_mark.index != at:
             start = min(error.context_mark.index, len(self.text))
             labels = (Label(Span(self.file, start, start + 1), error.context),)
         self.say(
@@ -202,7 +202,11 @@ class _Builder:
         if event.anchor:
             self._refuse(event, "an anchor", f"`&{event.anchor}` names this for reuse elsewhere")
         if tag and not (tag == "!" and isinstance(event, yaml.ScalarEvent)):
-            self._refuse(event, "a tag", f"`{tag}` changes how this is read")
+            self._refuse(
+                event,
+                "a tag",
+                f"`{self.text[event.start_mark.index :].split(maxsplit=1)[0]}` changes how this is read",
+            )
 
     def _refuse(self, event: yaml.Event, what: str, why: str) -> None:
         self.say(

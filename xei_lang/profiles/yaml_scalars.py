@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from xei_lang.profiles.yaml_tree import Scalar
 
 _INT = re.compile(r"[-+]?(0|[1-9][0-9]{0,17})")
-_FLOAT = re.compile(r"[-+]?[0-9]+(\.[0-9]+)?([eE][-+]?[0-9]+)?")
+_FLOAT = re.compile(r"[-+]?(0|[1-9][0-9]*)(\.[0-9]+)?([eE][-+]?[0-9]+)?")
 _OTHER_BOOL = re.compile(r"yes|no|on|off|y|n|true|false", re.IGNORECASE)
 _SEXAGESIMAL = re.compile(r"[-+]?[0-9]+(:[0-5]?[0-9])+(\.[0-9]*)?")
 _OTHER_NUMBER = re.compile(

@@ -13,15 +13,16 @@ from xei_lang.profiles.checks.overlap import check_overlap
 from xei_lang.profiles.checks.priors import check_priors
 from xei_lang.profiles.checks.skills import check_skills
 from xei_lang.profiles.model import Profile
+from xei_lang.profiles.trees import Trees
 
 
-def check_profile(profile: Profile) -> Diagnostics:
-    """All cross checks of a profile, in a fixed order; whether objects overlap only where all have a place."""
+def check_profile(profile: Profile, trees: Trees) -> Diagnostics:
+    """All cross checks, in a fixed order; whether objects overlap only where all have a place."""
     found = (
-        *check_names(profile),
-        *check_skills(profile),
-        *check_frames(profile),
-        *check_limits(profile),
+        *check_names(profile, trees),
+        *check_skills(profile, trees),
+        *check_frames(profile, trees),
+        *check_limits(profile, trees),
         *check_priors(profile),
         *check_geometry(profile),
     )

@@ -7,9 +7,11 @@ from collections.abc import Iterator
 from xei_lang.diagnostics import Diagnostic, Label
 from xei_lang.profiles.checks.unknown import unknown
 from xei_lang.profiles.model import CalibratedFrame, Profile
+from xei_lang.profiles.trees import Trees
+from xei_lang.profiles.yaml_tree import Node, Path
 
 
-def check_frames(profile: Profile) -> Iterator[Diagnostic]:
+def check_frames(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
     """Frames without a way to `world`, circles, frames given twice; links, stations and ground frames that do
     not exist.
     """
@@ -27,21 +29,22 @@ def check_frames(profile: Profile) -> Iterator[Diagnostic]:
                 help=("give it another name",),
             )
         elif frame.parent not in anchors and frame.parent not in frames:
-            yield unknown("a frame", frame.parent, [*anchors, *frames], frame.span, "XEI0630")
+            span = trees.calibration.span_of("frames", frame.name, "parent")
+            known = [name for name in (*anchors, *frames) if name != frame.name]
+            yield unknown("a frame of this profile", frame.parent, known, span, "XEI0630")
         else:
             yield from _circle(frame, frames)
     if "robot_base" not in carried:
+        span = trees.calibration.key_span("robot_frames")
         yield Diagnostic(
-            "XEI0630", "`robot_frames` has no `robot_base`", help=("add `robot_base: base_link`",)
+            "XEI0630", "no frame is the robot's base", span, help=("add `robot_base: base_link`",)
         )
     for name, link in calibration.robot_frames:
         if link not in profile.robot.links:
-            yield Diagnostic(
-                "XEI0620",
-                f"the frame `{name}` rides on `{link}`, which is no link of the robot",
-                help=unknown("a link", link, profile.robot.links, profile.bank.skills[0].span).help,
-            )
-    yield from _stations(profile, tuple(frames))
+            span = trees.calibration.span_of("robot_frames", name)
+            yield unknown("a link of the robot", link, profile.robot.links, span)
+    yield from _stations(profile, tuple(frames), trees.calibration)
+    yield from _sensors((*anchors, *frames), trees.calibration)
 
 
 def _circle(frame: CalibratedFrame, frames: dict[str, CalibratedFrame]) -> Iterator[Diagnostic]:
@@ -66,24 +69,28 @@ def _circle(frame: CalibratedFrame, frames: dict[str, CalibratedFrame]) -> Itera
         way.append(parent)
 
 
-def _stations(profile: Profile, frames: tuple[str, ...]) -> Iterator[Diagnostic]:
+def _stations(profile: Profile, frames: tuple[str, ...], tree: Node) -> Iterator[Diagnostic]:
     calibration = profile.calibration
     names = [station.name for station in calibration.stations]
     if calibration.start_station not in names:
-        found = (
-            unknown("a station", calibration.start_station, names, calibration.stations[0].span)
-            if names
-            else None
-        )
-        yield found or Diagnostic(
-            "XEI0620", "the calibration profile has no station", help=("add one under `stations`",)
-        )
+        span = tree.span_of("start_station")
+        yield unknown("a station of this profile", calibration.start_station, names, span)
     for station in calibration.stations:
         if station.ground_frame not in frames:
-            yield unknown("a frame", station.ground_frame, frames, station.span)
+            span = tree.span_of("stations", station.name, "ground_frame")
+            yield unknown("a calibrated frame", station.ground_frame, frames, span)
     if calibration.map_frame not in frames:
-        yield Diagnostic(
-            "XEI0620",
-            f"the map's frame `{calibration.map_frame}` is not a frame of this profile",
-            help=("known are " + ", ".join(f"`{name}`" for name in frames),),
-        )
+        yield unknown("a calibrated frame", calibration.map_frame, frames, tree.span_of("map", "frame"))
+
+
+def _sensors(frames: tuple[str, ...], tree: Node) -> Iterator[Diagnostic]:
+    """Tags, cameras and lidars stand in frames that exist."""
+    tags = tree.find(("apriltags", "tags"))
+    paths: list[Path] = [("apriltags", "tags", index, "frame") for index in range(len(tags.elements))]
+    for section in ("cameras", "lidars"):
+        sensors = tree.child(section)
+        paths += [(section, name, "frame") for name in (sensors.items if sensors else ())]
+    for path in paths:
+        name = tree.find(path).scalar
+        if name not in frames:
+            yield unknown("a frame of this profile", str(name), frames, tree.span_of(*path))

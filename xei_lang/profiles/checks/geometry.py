@@ -109,7 +109,7 @@ def _below(profile: Profile, item: LabObject) -> Iterator[Diagnostic]:
     """Objects of the lab may not begin under the table top whose frame they are told in."""
     tables = {station.ground_frame for station in profile.calibration.stations}
     placed = T_frame_object(profile, item)
-    if placed is None or item.system or placed[0] not in tables or item.prior is None:
+    if placed is None or item.system or item.prior is None or item.prior.frame not in tables:
         return
     height = placed[1].position_m[2]
     if height < -_SLACK_M:

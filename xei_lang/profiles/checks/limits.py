@@ -6,11 +6,12 @@ from collections.abc import Iterator
 
 from xei_lang.diagnostics import Diagnostic, Label
 from xei_lang.profiles.model import PlanningLimit, Profile, RobotJoint
+from xei_lang.profiles.trees import Trees
 
 _SLACK = 1e-9
 
 
-def check_limits(profile: Profile) -> Iterator[Diagnostic]:
+def check_limits(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
     """Joints without limits or with two sets, limits beyond the description, starts outside of them."""
     seen: dict[str, PlanningLimit] = {}
     for limit in profile.calibration.limits:
@@ -31,10 +32,12 @@ def check_limits(profile: Profile) -> Iterator[Diagnostic]:
             yield Diagnostic(
                 "XEI0651",
                 f"`{joint.name}` has no planning limits",
+                trees.calibration.key_span("limits"),
+                label="expected an entry for each joint that moves",
                 notes=(f"its motor is rated {joint.velocity:g} and {joint.effort:g} (rad, m, s, N)",),
                 help=("name it under `limits` in the calibration profile",),
             )
-    yield from _stations(profile, seen)
+    yield from _stations(profile, seen, trees)
 
 
 def _fits(limit: PlanningLimit, joint: RobotJoint) -> Iterator[Diagnostic]:
@@ -61,7 +64,7 @@ def _beyond(limit: PlanningLimit, what: str, stated: str, allowed: str) -> Diagn
     )
 
 
-def _stations(profile: Profile, limits: dict[str, PlanningLimit]) -> Iterator[Diagnostic]:
+def _stations(profile: Profile, limits: dict[str, PlanningLimit], trees: Trees) -> Iterator[Diagnostic]:
     link = dict(profile.calibration.robot_frames).get("slide", "")
     slide = next((joint.name for joint in profile.robot.joints if joint.child == link), "")
     if slide not in limits:
@@ -72,6 +75,6 @@ def _stations(profile: Profile, limits: dict[str, PlanningLimit]) -> Iterator[Di
             yield Diagnostic(
                 "XEI0651",
                 f"the slide cannot stand at {station.slide_m:g} m at `{station.name}`",
-                station.span,
+                trees.calibration.span_of("stations", station.name, "slide"),
                 label=f"expected {lower:g} .. {upper:g} m",
             )

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from xei_lang.diagnostics import Diagnostic, Label, Span
 from xei_lang.profiles.checks.unknown import unknown
 from xei_lang.profiles.model import LabObject, Profile
+from xei_lang.profiles.trees import Trees
 
 OPERATION_PARAMETERS = (
     "approach_height",
@@ -23,7 +24,7 @@ OPERATION_PARAMETERS = (
 """What the planner of operations computes; a skill bank may add its own under `parameters`."""
 
 
-def check_names(profile: Profile) -> Iterator[Diagnostic]:
+def check_names(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
     """Roles, skills, states and operation parameters that objects name; names and aliases that are not
     unique.
     """
@@ -35,17 +36,18 @@ def check_names(profile: Profile) -> Iterator[Diagnostic]:
         *(item.name for skill in profile.bank.skills for item in skill.parameters),
     }
     for item in profile.objects:
-        yield from (unknown("a skill", name, skills, item.span) for name in item.skills if name not in skills)
-        accepts = item.slots.accepts if item.slots else ()
-        span = item.slots.span if item.slots else item.span
-        yield from (
-            unknown("a role of any object", role, roles, span) for role in accepts if role not in roles
-        )
+        for index, name in enumerate(item.skills):
+            if name not in skills:
+                yield unknown("a skill of this profile", name, skills, trees.of_object(item, "skills", index))
+        for index, role in enumerate(item.slots.accepts if item.slots else ()):
+            if role not in roles:
+                span = trees.of_object(item, "slots", "accepts", index)
+                yield unknown("a role of any object", role, roles, span)
         for default in item.grasp:
             if default.name not in parameters:
                 yield unknown("an operation parameter", default.name, sorted(parameters), default.span)
-        yield from _states(item)
-    yield from _hazards(profile)
+        yield from _states(item, trees)
+    yield from _hazards(profile, trees)
 
 
 def _unique(profile: Profile) -> Iterator[Diagnostic]:
@@ -75,20 +77,17 @@ def _twice(name: str, span: Span, first: Span, what: str) -> Diagnostic:
     )
 
 
-def _states(item: LabObject) -> Iterator[Diagnostic]:
+def _states(item: LabObject, trees: Trees) -> Iterator[Diagnostic]:
     for state in item.states:
         if state.initial not in state.values:
-            yield unknown(f"a value of the state `{state.name}`", state.initial, state.values, state.span)
+            span = trees.of_object(item, "states", state.name, "initial")
+            yield unknown(f"a value of the state `{state.name}`", state.initial, state.values, span)
 
 
-def _hazards(profile: Profile) -> Iterator[Diagnostic]:
+def _hazards(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
     known = sorted({hazard for _, hazards in profile.hazards for hazard in hazards})
-    for pair in profile.incompatible:
-        for name in pair:
+    for index, pair in enumerate(profile.incompatible):
+        for side, name in enumerate(pair):
             if name not in known:
-                shown = ", ".join(f"`{hazard}`" for hazard in known)
-                yield Diagnostic(
-                    "XEI0620",
-                    f"no liquid of this profile has the hazard `{name}`",
-                    help=(f"hazards of liquids are {shown}",),
-                )
+                span = trees.usage.span_of("incompatible", index, side)
+                yield unknown("a hazard of any liquid", name, known, span)

@@ -6,23 +6,24 @@ from collections.abc import Iterator
 
 from xei_lang.diagnostics import Diagnostic, Label
 from xei_lang.profiles.checks.unknown import unknown
-from xei_lang.profiles.grid import T_object_standing, T_world_frame, prior_chain, slot_keys
+from xei_lang.profiles.grid import T_object_standing, prior_chain, slot_keys
 from xei_lang.profiles.model import LabObject, Prior, Profile
 
 
 def check_priors(profile: Profile) -> Iterator[Diagnostic]:
-    """Every prior, and then which places two objects would share."""
+    """Every prior, and which places two objects would share."""
+    roles = {role for item in profile.objects for role in item.roles}
     taken: dict[tuple[str, str, str], LabObject] = {}
     for item in profile.objects:
         prior = item.prior
         if prior is None:
             continue
         if not prior.in_object:
-            if T_world_frame(profile, prior.frame) is None:
-                frames = ["world", *(frame.name for frame in profile.calibration.frames)]
-                yield unknown("a frame that stays where it is", prior.frame, frames, prior.span, "XEI0624")
+            fixed = ["world", *(frame.name for frame in profile.calibration.frames)]
+            if prior.frame not in fixed:
+                yield unknown("a frame that stays where it is", prior.frame, fixed, prior.span, "XEI0624")
             continue
-        yield from _place(profile, item, prior)
+        yield from _place(profile, item, prior, roles)
         place = (prior.in_object, prior.in_kind, prior.in_key)
         if place in taken:
             other = taken[place]
@@ -38,7 +39,7 @@ def check_priors(profile: Profile) -> Iterator[Diagnostic]:
         taken.setdefault(place, item)
 
 
-def _place(profile: Profile, item: LabObject, prior: Prior) -> Iterator[Diagnostic]:
+def _place(profile: Profile, item: LabObject, prior: Prior, roles: set[str]) -> Iterator[Diagnostic]:
     holder = profile.object(prior.in_object)
     if holder is None:
         yield unknown(
@@ -64,6 +65,8 @@ def _place(profile: Profile, item: LabObject, prior: Prior) -> Iterator[Diagnost
             f"a {prior.in_kind} of `{holder.name}`", prior.in_key, keys if keys else (), prior.span, "XEI0624"
         )
     elif prior.in_kind == "slot" and holder.slots and not set(item.roles) & set(holder.slots.accepts):
+        if not set(holder.slots.accepts) <= roles:
+            return  # the unknown role is the mistake, and is told
         accepts = ", ".join(f"`{role}`" for role in holder.slots.accepts)
         yield Diagnostic(
             "XEI0624",

@@ -12,6 +12,7 @@ from xei_lang.ir.goals import GoalKind, PathKind
 from xei_lang.profiles.checks.names import OPERATION_PARAMETERS
 from xei_lang.profiles.checks.unknown import unknown
 from xei_lang.profiles.model import Profile, SkillSpec, TemplateStep
+from xei_lang.profiles.trees import Trees
 from xei_lang.syntax import ast
 
 POINTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
@@ -42,12 +43,13 @@ FIELDS: Mapping[GoalKind, tuple[tuple[str, ...], tuple[str, ...]]] = MappingProx
 """Fields that a goal of a template must have, and those that it may have."""
 
 
-def check_skills(profile: Profile) -> Iterator[Diagnostic]:
+def check_skills(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
     """Every skill: its owner, the roles that it asks for, the names in its contract, phrases and template."""
     roles = sorted({role for item in profile.objects for role in item.roles})
     for skill in profile.bank.skills:
         if skill.owner not in profile.bank.owners:
-            yield unknown("an owner", skill.owner, profile.bank.owners, skill.span)
+            span = trees.of_skill(skill.name, "owner")
+            yield unknown("an owner of this profile", skill.owner, profile.bank.owners, span)
         for arg in skill.args:
             names = [node for node in ast.walk(arg.roles) if isinstance(node, ast.Role)] if arg.roles else []
             yield from (
@@ -56,9 +58,15 @@ def check_skills(profile: Profile) -> Iterator[Diagnostic]:
                 if role.id not in roles
             )
         yield from _contract(skill)
-        yield from _phrases(skill)
-        for step in skill.template:
-            yield from _step(profile, skill, step)
+        yield from _phrases(skill, trees)
+        for index, step in enumerate(skill.template):
+            yield from _fields(skill, step)
+            for field, value in step.fields:
+                known = _known(profile, skill, step, field) if isinstance(value, str) else None
+                if known is not None and value not in known:
+                    span = trees.of_skill(skill.name, "template", index, step.kind, field)
+                    what = f"a `{field}` for the template of `{skill.name}`"
+                    yield unknown(what, str(value), known, span, "XEI0623")
 
 
 def _contract(skill: SkillSpec) -> Iterator[Diagnostic]:
@@ -74,15 +82,17 @@ def _contract(skill: SkillSpec) -> Iterator[Diagnostic]:
                 )
 
 
-def _phrases(skill: SkillSpec) -> Iterator[Diagnostic]:
+def _phrases(skill: SkillSpec, trees: Trees) -> Iterator[Diagnostic]:
     names = [arg.name for arg in skill.args]
-    for phrase in skill.phrases:
+    for index, phrase in enumerate(skill.phrases):
         for name in re.findall(r"\{([^{}]*)\}", phrase):
             if name not in names:
-                yield _no_argument(skill, name, names, skill.span)
+                span = trees.of_skill(skill.name, "phrases", index)
+                yield _no_argument(skill, name, names, span)
 
 
-def _step(profile: Profile, skill: SkillSpec, step: TemplateStep) -> Iterator[Diagnostic]:
+def _fields(skill: SkillSpec, step: TemplateStep) -> Iterator[Diagnostic]:
+    """Whether a goal of a template has the fields that its kind needs, and no others."""
     required, optional = FIELDS[step.kind]
     given = [name for name, _ in step.fields]
     for name in given:
@@ -104,22 +114,17 @@ def _step(profile: Profile, skill: SkillSpec, step: TemplateStep) -> Iterator[Di
             step.span,
             label="expected `at` with `tool`, or `configuration`",
         )
-    for name, value in step.fields:
-        if isinstance(value, str):
-            yield from _value(profile, skill, step, name, value)
 
 
-def _value(
-    profile: Profile, skill: SkillSpec, step: TemplateStep, field: str, value: str
-) -> Iterator[Diagnostic]:
-    """Whether a word of a template names what its field takes."""
+def _known(profile: Profile, skill: SkillSpec, step: TemplateStep, field: str) -> list[str] | None:
+    """The words that a field of a template can be; None where any will do."""
     args = {arg.name: arg.type for arg in skill.args}
     states = sorted({state.name for state in profile.robot.states})
     of_type = {
         kind: [name for name, type_ in args.items() if type_ == kind]
         for kind in ("Arm", "object", "Place", "Station")
     }
-    known: list[str] | None = {
+    words = {
         "tool": [*of_type["Arm"], *profile.bank.arms],
         "arm": [*of_type["Arm"], *profile.bank.arms],
         "object": of_type["object"],
@@ -129,19 +134,16 @@ def _value(
         "configuration": states,
         "output": list(args),
         "value": list(args),
-    }.get(field)
+    }
     if field in ("speed", "width", "height", "for"):
-        known = [*args, *OPERATION_PARAMETERS, *(item.name for item in skill.parameters)]
-    elif field == "at" and step.kind == "detach":
-        known = of_type["Place"]
-    elif field in ("at", "frame"):
-        frames = [frame.name for frame in profile.calibration.frames]
-        known = [f"{name}.{point}" for name, type_ in args.items() for point in POINTS.get(type_, ())]
-        known += frames if field == "frame" else []
-    if known is not None and value not in known:
-        yield unknown(
-            f"a `{field}` that the template of `{skill.name}` can use", value, known, step.span, "XEI0623"
-        )
+        return [*args, *OPERATION_PARAMETERS, *(item.name for item in skill.parameters)]
+    if field == "at" and step.kind == "detach":
+        return of_type["Place"]
+    if field in ("at", "frame"):
+        frames = [frame.name for frame in profile.calibration.frames] if field == "frame" else []
+        points = (f"{name}.{point}" for name, type_ in args.items() for point in POINTS.get(type_, ()))
+        return [*points, *frames]
+    return words.get(field)
 
 
 def _no_argument(skill: SkillSpec, name: str, names: list[str], span: Span) -> Diagnostic:

@@ -88,7 +88,7 @@ class ElementModel(Model):
 
 
 class PriorModel(Model):
-    """Where an object is believed to be: `in` a place such as `rack_1.slot("A1")`, or at a pose in a frame."""
+    """Where an object should be: `in` a place such as `rack_1.slot("A1")`, or at a pose in a frame."""
 
     in_: str | None = Field(default=None, alias="in")
     frame: Name | None = None
