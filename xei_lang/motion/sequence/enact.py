@@ -35,7 +35,7 @@ def carry_out(context: Context, layer: Layer, index: int, start: Snapshot) -> tu
     None where a straight line leaves the arm's limits on its way.
     """
     chain, now, target = layer.chain, start, 0
-    told = choice_text(layer, index, start)
+    told = choice_name(layer, index, start)
     motions: list[Motion] = []
     for goal in chain.goals[1:]:
         if isinstance(goal.action, MoveTo):
@@ -117,11 +117,8 @@ def as_held(chain: Chain, snapshot: Snapshot, member: int) -> Snapshot:
     return snapshot.attached(chain.arm, replace(held, member=member))
 
 
-def choice_text(layer: Layer, index: int, snapshot: Snapshot) -> str:
-    """What was chosen, for people: the grasp, the slide height and the swivel angle."""
+def choice_name(layer: Layer, index: int, snapshot: Snapshot) -> str:
+    """The member that was chosen: the one that the hand holds by, or else the candidate's own."""
     held = snapshot.held.get(layer.chain.arm)
     member = int(layer.member[index]) if held is None else held.member
-    name = layer.chain.family.members[member].name
-    slide_mm = 1000.0 * float(layer.q[index, 0, 0])
-    swivel_deg = math.degrees(float(layer.swivel_angle[index]))
-    return f"{name}; slide {slide_mm:.0f} mm, swivel {swivel_deg:.0f} deg"
+    return layer.chain.family.members[member].name

@@ -11,11 +11,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from xei_lang.ir.goals import MotionGoal, MoveTo
-from xei_lang.motion.paths.free import PathBlocked, plan_free_path
+from xei_lang.ir.goals import MotionGoal
+from xei_lang.motion.paths.free import PathBlocked
 from xei_lang.motion.sequence.choose import Bools, Speeds, Stage, cheapest
 from xei_lang.motion.sequence.context import Context
-from xei_lang.motion.sequence.enact import as_held, carry_out, choice_text
+from xei_lang.motion.sequence.enact import as_held, carry_out
 from xei_lang.motion.sequence.fixed import plan_fixed
 from xei_lang.motion.sequence.layers import LEAN, THOROUGH, Effort, Layer, enumerate_layer, slide_heights
 from xei_lang.motion.sequence.motions import Motion
@@ -23,7 +23,8 @@ from xei_lang.motion.sequence.poses import same_grasp
 from xei_lang.motion.sequence.rehearse import Rehearsal, rehearse_group
 from xei_lang.motion.sequence.sections import Chain, Group
 from xei_lang.motion.sequence.snapshot import UNCHOSEN, Snapshot
-from xei_lang.motion.sequence.space import Touch, motion_contact, space_for, target_check
+from xei_lang.motion.sequence.space import Touch, motion_contact, target_check
+from xei_lang.motion.sequence.transit import plan_transit
 
 Array = NDArray[np.float64]
 
@@ -223,7 +224,7 @@ def _realise(
             now = motion.after
             continue
         layer, index = search.layers[stage], chosen[stage]
-        transit = _transit(context, layer, index, now)
+        transit = plan_transit(context, layer, index, now)
         if isinstance(transit, PathBlocked):
             return _BlockedAt(stage, transit)
         rest = carry_out(context, layer, index, transit.after)
@@ -232,25 +233,6 @@ def _realise(
         now = motions[-1].after
         stage += 1
     return tuple(motions)
-
-
-def _transit(context: Context, layer: Layer, index: int, before: Snapshot) -> Motion | PathBlocked:
-    """The free move to a candidate's first target; the slide takes part where its height changes."""
-    chain, goal = layer.chain, layer.chain.head
-    assert isinstance(goal.action, MoveTo)
-    q_goal = layer.q[index, 0]
-    joints, indices = context.arm_joints(chain.arm), context.arm_indices(chain.arm)
-    if abs(q_goal[0] - before.q[indices[0]]) < 1e-9:
-        joints, indices, q_goal = joints[1:], indices[1:], q_goal[1:]
-    space = space_for(context, before, joints, goal.allowed_contacts)
-    found = plan_free_path(space, before.q[indices], q_goal, context.goal_seed(goal.id))
-    if isinstance(found, PathBlocked):
-        return found
-    after = before.moved(context.lift(before.q, chain.arm, layer.q[index, 0]))
-    return Motion(
-        goal, before, after, found.path, found.planner, speed_fraction=goal.action.speed_fraction,
-        arm=chain.arm, choice=choice_text(layer, index, before),
-    )  # fmt: skip
 
 
 def _unplaced(search: _Search) -> Unplaced:

@@ -131,6 +131,12 @@ class SceneSpace:
     def edge_is_free(self, q_start: Array, q_end: Array) -> bool:
         return self.scene.edge_is_free(self._whole(q_start), self._whole(q_end))
 
+    def any_contact(self, q: Array) -> bool:
+        """Whether any of the configurations (m, n) touches something."""
+        whole = np.tile(self.rest, (len(q), 1))
+        whole[:, list(self.columns)] = q
+        return any(self.scene.in_collision(row) for row in whole)
+
     def contact(self, q: Array) -> Pair | None:
         return touching(self.scene, self._whole(q))
 

@@ -1,0 +1,69 @@
+"""The free move that brings an arm to the first target of a chain."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from xei_lang.ir.goals import MoveTo
+from xei_lang.motion.paths.free import FreePath, PathBlocked, plan_free_path
+from xei_lang.motion.sequence.context import Context
+from xei_lang.motion.sequence.enact import choice_name
+from xei_lang.motion.sequence.layers import Layer
+from xei_lang.motion.sequence.motions import Motion
+from xei_lang.motion.sequence.sections import Chain
+from xei_lang.motion.sequence.snapshot import Snapshot
+from xei_lang.motion.sequence.space import space_for
+from xei_lang.motion.sequence.upright import plan_upright, tilt
+
+Array = NDArray[np.float64]
+
+_TILT_SAMPLES = 24
+TILTED = ("held object", "its upright bound")
+
+
+def plan_transit(context: Context, layer: Layer, index: int, before: Snapshot) -> Motion | PathBlocked:
+    """The free move to a candidate's first target; the slide takes part where its height changes."""
+    chain, goal = layer.chain, layer.chain.head
+    assert isinstance(goal.action, MoveTo)
+    q_goal = layer.q[index, 0]
+    upright = goal.action.keep_upright and chain.arm in before.held
+    found = _upright(context, chain, before, q_goal) if upright else _free(context, chain, before, q_goal)
+    if isinstance(found, PathBlocked):
+        return found
+    after = before.moved(context.lift(before.q, chain.arm, q_goal))
+    return Motion(
+        goal, before, after, found.path, found.planner, speed_fraction=goal.action.speed_fraction,
+        arm=chain.arm, choice=choice_name(layer, index, before),
+    )  # fmt: skip
+
+
+def _free(context: Context, chain: Chain, before: Snapshot, q_goal: Array) -> FreePath | PathBlocked:
+    joints, indices = context.arm_joints(chain.arm), context.arm_indices(chain.arm)
+    if abs(q_goal[0] - before.q[indices[0]]) < 1e-9:
+        joints, indices, q_goal = joints[1:], indices[1:], q_goal[1:]
+    space = space_for(context, before, joints, chain.head.allowed_contacts)
+    return plan_free_path(space, before.q[indices], q_goal, context.goal_seed(chain.head.id))
+
+
+def _upright(context: Context, chain: Chain, before: Snapshot, q_goal: Array) -> FreePath | PathBlocked:
+    """A free move that keeps the held object's tilt within the bound: over tool poses, or else a joint path that happens to.
+
+    What is already tilted more than the bound (by a named configuration) cannot be kept upright and moves freely.
+    """
+    goal, bound = chain.head, context.profile.calibration.spill_tilt_rad
+    joints, columns = context.arm_joints(chain.arm), context.arm_indices(chain.arm)
+    if tilt(context, before, chain.arm, joints, before.q[None, columns]) > bound:
+        return _free(context, chain, before, q_goal)
+    seed = context.goal_seed(goal.id)
+    found = plan_upright(context, chain.arm, before, q_goal, goal.allowed_contacts, seed)
+    if isinstance(found, FreePath):
+        return found
+    plain = _free(context, chain, before, q_goal)
+    if isinstance(plain, PathBlocked):
+        return plain
+    path = plain.path
+    q = path.evaluate(np.linspace(0.0, path.length, _TILT_SAMPLES), 0)
+    if tilt(context, before, chain.arm, path.joints, q) <= bound:
+        return plain
+    return found or PathBlocked("between", TILTED)
