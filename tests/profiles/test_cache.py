@@ -50,7 +50,9 @@ def test_an_unchanged_profile_comes_back_whole(lab, tmp_path, monkeypatch):
 
 
 def test_warnings_come_back_too(tmp_path, monkeypatch):
-    lab = changed_profile(tmp_path, "development_profile.yaml\n- movable & not fixture\n+ movable & not fragile")
+    lab = changed_profile(
+        tmp_path, "development_profile.yaml\n- movable & not fixture\n+ movable & not fragile"
+    )
     _, warned = load_profile(lab, tmp_path / "cache")
     forbid_building(monkeypatch)
     assert [found.code for found in warned] == ["XEI0625"]

@@ -45,4 +45,6 @@ def test_what_is_missing_is_told_with_what_there_is(tmp_path, monkeypatch):
     assert "`lab` (profiles/lab)" in far.help[0]
     assert "`openarm_bench`" in far.help[0]
     nothing = missing_profile("kitchen", tmp_path, tmp_path / "nowhere", None)
-    assert nothing.help == ("make a folder `profiles/kitchen` beside the protocol, or name one with --profile",)
+    assert nothing.help == (
+        "make a folder `profiles/kitchen` beside the protocol, or name one with --profile",
+    )

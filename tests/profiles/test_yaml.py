@@ -10,7 +10,10 @@ from xei_lang.profiles.yaml_reader import read_yaml
 from xei_lang.profiles.yaml_tree import Node
 
 scalars = (
-    st.none() | st.booleans() | st.integers(-(10**9), 10**9) | st.text("abc äß\U0001f9ea:#-'\"\n1.,", max_size=12)
+    st.none()
+    | st.booleans()
+    | st.integers(-(10**9), 10**9)
+    | st.text("abc äß\U0001f9ea:#-'\"\n1.,", max_size=12)
 )
 values = st.recursive(
     scalars, lambda below: st.lists(below, max_size=3) | st.dictionaries(st.text("abc", min_size=1), below, max_size=3),

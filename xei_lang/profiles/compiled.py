@@ -64,7 +64,7 @@ def read(cache: Path, key: str) -> tuple[Profile, Diagnostics] | None:
 
 
 def write(cache: Path, key: str, profile: Profile, diagnostics: Diagnostics) -> None:
-    """Store a profile; a reader sees the whole file or none. A cache that cannot be written stays as it is."""
+    """Store a profile; a reader sees all of it or nothing. A cache that cannot be written stays as it is."""
     import tempfile
 
     with contextlib.suppress(OSError):

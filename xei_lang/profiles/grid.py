@@ -51,7 +51,7 @@ def T_object_standing(item: LabObject, kind: str, key: str) -> Pose | None:
 
 
 def prior_chain(profile: Profile, item: LabObject) -> tuple[LabObject, ...]:
-    """The object, what it stands in, what that stands in, and so on; ends before an object would come twice."""
+    """The object, what it stands in, what that stands in, and so on; no object comes twice."""
     chain = [item]
     while chain[-1].prior is not None and chain[-1].prior.in_object:
         holder = profile.object(chain[-1].prior.in_object)
