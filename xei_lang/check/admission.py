@@ -27,7 +27,9 @@ def _gap(request: UnmappedRequest) -> Diagnostic:
 def _placeholders(profile: Profile) -> Diagnostics:
     calibration = profile.calibration
     found = [(name, span) for name, span in calibration.placeholders]
-    found += [(f"frames.{frame.name}", frame.span) for frame in calibration.frames if frame.status == "placeholder"]
+    found += [
+        (f"frames.{frame.name}", frame.span) for frame in calibration.frames if frame.status == "placeholder"
+    ]
     return tuple(
         Diagnostic(
             "XEI0241",

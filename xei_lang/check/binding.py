@@ -86,6 +86,7 @@ class Binder:
                     where,
                     f"declares the {noun}s {listed(names)}" if names else f"declares no {noun}s",
                     help=meant(did_you_mean(name, names)),
+                    about=f"{flag} {name}",
                 )
 
     def object(self, node: ObjectDecl, scope: Scope) -> None:
@@ -98,7 +99,7 @@ class Binder:
             node.type, f"parameter `{node.name.id}`", self._registry, self._reporter
         )
         value = POISON if expected is None else self._param(node, expected, scope, state)
-        scope.declare(node.name, "param", value, self._reporter)
+        scope.declare(node.name, "parameter", value, self._reporter)
 
     def _object(self, node: ObjectDecl, scope: Scope) -> Val:
         if not known_roles(node.type, self._registry, self._reporter):

@@ -56,20 +56,31 @@ class _Prepared:
 
 
 class Calls:
-    """Checks calls of skills; the contracts are prepared once."""
+    """Checks calls of skills; the contracts are prepared once.
 
-    def __init__(self, registry: Registry, evaluator: Evaluator, types: Types, reporter: Reporter) -> None:
+    `procedures` are names that can be called, too; with `imports` there may be more of them than are known here.
+    """
+
+    def __init__(
+        self,
+        registry: Registry,
+        evaluator: Evaluator,
+        types: Types,
+        reporter: Reporter,
+        procedures: tuple[str, ...],
+        imports: bool,
+    ) -> None:
         self._registry = registry
         self._evaluator = evaluator
         self._types = types
         self._reporter = reporter
+        self._procedures = procedures
+        self._imports = imports
         self._prepared: dict[str, _Prepared] = {}
 
-    def check(
-        self, call: Call, scope: Scope, state: State, procedures: tuple[str, ...]
-    ) -> CheckedCall | None:
+    def check(self, call: Call, scope: Scope, state: State) -> CheckedCall | None:
         """The call with its arguments resolved as they are at this point of the plan; None where it does not hold."""
-        skill = self._skill(call, procedures)
+        skill = self._skill(call)
         if skill is None:
             self._look_at_arguments(call, scope)
             return None
@@ -87,17 +98,19 @@ class Calls:
         found = tuple(_planned(spec, value, given) for spec, value in _present(prepared, values))
         return CheckedCall(skill, prepared.effects, found)
 
-    def _skill(self, call: Call, procedures: tuple[str, ...]) -> SkillSpec | None:
+    def _skill(self, call: Call) -> SkillSpec | None:
         name = call.callee.id
         skill = self._registry.skills.get(name)
         callable_skills = tuple(skill.name for skill in self._registry.skills.values() if skill.exposed)
+        if skill is None and self._imports:
+            return None
         if skill is None:
             self._reporter.report(
                 "XEI0201",
                 f"there is no skill `{name}`",
                 call.callee.span,
                 "neither a skill of this robot nor a procedure of this file",
-                help=meant(did_you_mean(name, (*callable_skills, *procedures)))
+                help=meant(did_you_mean(name, (*callable_skills, *self._procedures)))
                 or (f"this robot's skills are {listed(callable_skills, 12)}",),
             )
         elif not skill.exposed:

@@ -17,7 +17,7 @@ from xei_lang.check.scope import Usage
 from xei_lang.check.types import Types
 from xei_lang.diagnostics import Source
 from xei_lang.profiles.model import Profile
-from xei_lang.syntax.ast import Module, Procedure
+from xei_lang.syntax.ast import Import, Module, Procedure
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +46,8 @@ def make_context(module: Module, source: Source, profile: Profile, options: Chec
     types = Types(registry, places, reporter)
     evaluator = Evaluator(registry, places, reporter, options.max_steps)
     procedures = [item for item in module.items if isinstance(item, Procedure)]
+    names = tuple(item.name.id for item in procedures)
+    imports = any(isinstance(item, Import) for item in module.items)
     return Context(
         source,
         options,
@@ -54,7 +56,7 @@ def make_context(module: Module, source: Source, profile: Profile, options: Chec
         Usage(),
         types,
         evaluator,
-        Calls(registry, evaluator, types, reporter),
+        Calls(registry, evaluator, types, reporter, names, imports),
         Clauses(evaluator, types, reporter),
         Givens(evaluator, types, reporter),
         Binder(registry, evaluator, types, reporter, options),

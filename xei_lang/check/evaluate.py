@@ -117,7 +117,9 @@ class Evaluator:
             "XEI0202",
             f"`{node.id}` is not known here",
             node.span,
-            "no object, station, parameter or variable has this name",
+            f"expected {' or '.join(f'`{word}`' for word in words)}"
+            if len(words) > 1
+            else "no object, station, parameter or variable has this name",
             help=meant(did_you_mean(node.id, known)) or quoted,
         )
 

@@ -85,7 +85,7 @@ class Expander:
                 self._step(member, scope, where)
             case Let():
                 value = self.context.evaluator.value(member.value, scope)
-                scope.declare(member.name, "let", value, self.context.reporter)
+                scope.declare(member.name, "variable", value, self.context.reporter)
             case Note() | Unmapped():
                 self.plan.remark(member, where.origin)
             case Require():
@@ -177,7 +177,7 @@ class Expander:
         if procedure is not None and name not in self.context.registry.skills:
             procedures.inline(self, step, call, procedure, scope, where)
             return
-        checked = self.context.calls.check(call, scope, self.state, tuple(self.context.procedures))
+        checked = self.context.calls.check(call, scope, self.state)
         if checked is None:
             return
         values = checked.values

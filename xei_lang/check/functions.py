@@ -8,7 +8,7 @@ from math import ceil
 
 from xei_lang.check import arithmetic
 from xei_lang.check.report import Reporter, meant
-from xei_lang.check.values import POISON, ListValue, Val, kind
+from xei_lang.check.values import POISON, ListValue, Val, a, kind
 from xei_lang.diagnostics import Span, did_you_mean
 from xei_lang.quantity import DimensionError, Quantity
 from xei_lang.syntax.ast import CallExpr, Name
@@ -135,9 +135,9 @@ class Functions:
         try:
             return reduce(step, items)
         except DimensionError as error:
-            return self._wrong(
-                f"cannot {error.operation} {error.left.name} and {error.right.name}", node.span
-            )
+            message = f"cannot {error.operation} {a(error.left.name)} and {a(error.right.name)}"
+            self._reporter.report("XEI0312", message, node.span, "these do not go together")
+            return POISON
 
     def _wrong(self, message: str, span: Span, label: str = "") -> Val:
         self._reporter.report("XEI0319", message, span, label)

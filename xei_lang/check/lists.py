@@ -28,10 +28,10 @@ class Progression(Sequence[Val]):
 
     first: Numeric
     step: Numeric
-    count: int
+    length: int
 
     def __len__(self) -> int:
-        return self.count
+        return self.length
 
     @overload
     def __getitem__(self, index: int) -> Val: ...
@@ -39,8 +39,9 @@ class Progression(Sequence[Val]):
     def __getitem__(self, index: slice) -> Sequence[Val]: ...
     def __getitem__(self, index: int | slice) -> Val | Sequence[Val]:
         if isinstance(index, slice):
-            return [self[i] for i in range(*index.indices(self.count))]
-        if not 0 <= index < self.count:
+            return [self[i] for i in range(*index.indices(self.length))]
+        index += self.length if index < 0 else 0
+        if not 0 <= index < self.length:
             raise IndexError(index)
         return arithmetic.combine("+", self.first, arithmetic.combine("*", self.step, index))
 

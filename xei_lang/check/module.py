@@ -11,6 +11,7 @@ from xei_lang.check.plan_builder import PlanBuilder, Where
 from xei_lang.check.procedures import check_alone, check_declarations
 from xei_lang.check.scope import Scope
 from xei_lang.check.unsupported import refuse
+from xei_lang.check.values import POISON
 from xei_lang.diagnostics import Diagnostics, Label, Source, Span, has_errors
 from xei_lang.ir.skill_plan import Fact, SkillPlan
 from xei_lang.profiles.model import Profile
@@ -49,13 +50,14 @@ def check_module(
     """
     context = make_context(module, source, profile, options)
     expander = Expander(context, PlanBuilder(options.max_steps), initial_state(context.registry))
-    _check_items(module, expander)
+    scope = Scope(context.usage)
+    _check_items(module, expander, scope)
     protocols = _protocols(module)
-    plan = _protocol(protocols[0], expander, profile) if protocols else None
+    plan = _protocol(protocols[0], expander, scope.child(), profile) if protocols else None
     for procedure in context.procedures.values():
         if procedure.name.id not in expander.called:
             alone = Expander(context, PlanBuilder(options.max_steps), initial_state(context.registry))
-            check_alone(alone, procedure, Scope(context.usage))
+            check_alone(alone, procedure, scope)
             expander.called |= alone.called
     context.usage.warn(context.reporter)
     diagnostics = context.reporter.diagnostics
@@ -66,11 +68,13 @@ def _protocols(module: Module) -> tuple[Protocol, ...]:
     return tuple(item for item in module.items if isinstance(item, Protocol))
 
 
-def _check_items(module: Module, expander: Expander) -> None:
+def _check_items(module: Module, expander: Expander, scope: Scope) -> None:
     reporter = expander.context.reporter
     for item in module.items:
         if isinstance(item, Import | ImportTable):
             refuse(reporter, item)
+        if isinstance(item, ImportTable):
+            scope.declare(item.name, "table", POISON, reporter)
     first, *others = _protocols(module) or (None,)
     for other in others:
         assert first is not None
@@ -86,12 +90,11 @@ def _check_items(module: Module, expander: Expander) -> None:
     check_declarations(expander, procedures)
 
 
-def _protocol(protocol: Protocol, expander: Expander, profile: Profile) -> SkillPlan:
+def _protocol(protocol: Protocol, expander: Expander, scope: Scope, profile: Profile) -> SkillPlan:
     context, plan = expander.context, expander.plan
     check_labels(protocol.body, context.reporter)
     declared = [member for member in protocol.body if isinstance(member, ObjectDecl | Param)]
     context.binder.unknown_names(declared, protocol.name.span)
-    scope = Scope(context.usage)
     where = Where(step_names(protocol.body))
     initial = _expand(protocol, expander, scope, where)
     if plan.full and plan.overflow is None:

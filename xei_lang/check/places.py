@@ -129,7 +129,7 @@ class Places:
             node.span,
             f"there is no such {kind}",
             notes=(there, *((self._reporter.rule(rule),) if rule else ())),
-            help=meant(did_you_mean(key, known)),
+            help=meant(_nearest(kind, key, known)),
         )
         return POISON
 
@@ -148,6 +148,12 @@ class Places:
 
 def _slots(owner: ObjectValue, keys: tuple[str, ...]) -> ListValue:
     return ListValue(tuple(PlaceValue(owner, "slot", key) for key in keys))
+
+
+def _nearest(kind: str, key: str, known: tuple[str, ...]) -> tuple[str, ...]:
+    """Names of spots are words; a slot's name is too short for a guess, unless only one is near (`a1`)."""
+    suggestions = did_you_mean(key, known)
+    return suggestions if kind == "spot" or len(suggestions) == 1 else ()
 
 
 def _place_help(thing: LabObject) -> tuple[str, ...]:

@@ -38,7 +38,7 @@ def inline(
     inner = scope.fresh()
     for formal in procedure.params:
         value = _actual(expander, formal, given, procedure, scope, inner)
-        inner.declare(formal.name, "param", value, expander.context.reporter)
+        inner.declare(formal.name, "parameter", value, expander.context.reporter)
     frame = Frame(name, call.span)
     below = where.under(f"{where.path(step)}.", step_names(procedure.body))
     below = replace(below, origin=(*where.origin, frame), depth=where.depth + 1)
@@ -55,7 +55,7 @@ def check_alone(expander: Expander, procedure: Procedure, scope: Scope) -> None:
     expander.called.add(procedure.name.id)
     inner = scope.fresh()
     for formal in procedure.params:
-        inner.declare(formal.name, "param", _any(expander, formal, inner), expander.context.reporter)
+        inner.declare(formal.name, "parameter", _any(expander, formal, inner), expander.context.reporter)
     frame = Frame(procedure.name.id, procedure.name.span)
     expander.members(procedure.body, inner, Where(step_names(procedure.body), origin=(frame,)))
 

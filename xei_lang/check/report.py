@@ -18,13 +18,13 @@ class Reporter:
 
     def __init__(self, sources: Sources) -> None:
         self._sources = sources
-        self._found: dict[tuple[str, Span], Diagnostic] = {}
+        self._found: dict[tuple[Span, str, str], Diagnostic] = {}
         self.calls: tuple[Call, ...] = ()
 
     @property
     def diagnostics(self) -> Diagnostics:
         """Everything that was reported, in the order of the text."""
-        return tuple(self._found[key] for key in sorted(self._found, key=lambda key: (key[1], key[0])))
+        return tuple(self._found[key] for key in sorted(self._found))
 
     def report(
         self,
@@ -37,9 +37,13 @@ class Reporter:
         notes: tuple[str, ...] = (),
         help: tuple[str, ...] = (),
         fix: Fix | None = None,
+        about: str = "",
     ) -> None:
-        """Keep a diagnostic, unless the same code was reported at the same place."""
-        key = (code, span)
+        """Keep a diagnostic, unless the same code was reported at the same place.
+
+        `about` tells apart what is rightly said twice of one place, such as two wrong options of the command line.
+        """
+        key = (span, code, about)
         if key not in self._found:
             chain = tuple(
                 Label(call.span, f"in this call of `{call.procedure}`") for call in reversed(self.calls)

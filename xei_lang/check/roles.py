@@ -45,12 +45,14 @@ def _unmet_parts(expression: TypeExpr, have: frozenset[str]) -> list[str]:
     match expression:
         case RoleAnd():
             return _unmet_parts(expression.left, have) + _unmet_parts(expression.right, have)
+        case Role(id=name):
+            return [f"lacks the role `{name}`"]
         case RoleNot(operand=Role(id=name)):
             return [f"has the role `{name}`, which is ruled out"]
         case RoleNot():
             return [f"is ruled out by `{text(expression)}`"]
         case _:
-            return [f"lacks `{text(expression)}`"]
+            return [f"is not `{text(expression)}`"]
 
 
 def text(expression: TypeExpr) -> str:

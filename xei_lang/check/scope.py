@@ -6,11 +6,12 @@ from dataclasses import dataclass
 from typing import Literal
 
 from xei_lang.check.report import Reporter
-from xei_lang.check.values import Val
+from xei_lang.check.values import POISON, Val
 from xei_lang.diagnostics import Label, Span
 from xei_lang.syntax.ast import Name
 
-SymbolKind = Literal["object", "param", "let", "loop variable", "measurement"]
+SymbolKind = Literal["object", "parameter", "variable", "loop variable", "measurement", "table"]
+_SHOULD_BE_USED = ("object", "parameter", "variable")
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,9 +40,9 @@ class Usage:
         self._used.add(symbol.span)
 
     def warn(self, reporter: Reporter) -> None:
-        """Report objects, parameters and `let`s that nothing uses."""
+        """Report objects, parameters and variables that nothing uses; what is wrong itself is let be."""
         for span, symbol in self._declared.items():
-            if span not in self._used and symbol.kind in ("object", "param", "let"):
+            if span not in self._used and symbol.kind in _SHOULD_BE_USED and symbol.value is not POISON:
                 reporter.report(
                     "XEI0501",
                     f"{symbol.kind} `{symbol.name}` is never used",
@@ -64,8 +65,8 @@ class Scope:
         return Scope(self._usage, self)
 
     def fresh(self) -> Scope:
-        """The scope of a procedure's body: it sees nothing of its caller."""
-        return Scope(self._usage)
+        """The scope of a procedure's body: it sees what the file declares, nothing of its caller."""
+        return Scope(self._usage, self._outermost())
 
     def declare(self, name: Name, kind: SymbolKind, value: Val, reporter: Reporter) -> None:
         """Give a name its value; a second declaration in the same block is an error and keeps the first."""
@@ -94,6 +95,12 @@ class Scope:
                 return symbol
             scope = scope._parent
         return None
+
+    def _outermost(self) -> Scope:
+        scope = self
+        while scope._parent is not None:
+            scope = scope._parent
+        return scope
 
     def names(self) -> tuple[str, ...]:
         """Every name that can be used here."""

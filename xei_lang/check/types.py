@@ -101,11 +101,9 @@ class Types:
         return POISON
 
     def _no_unit(self, value: Val, expected: Expectation, node: Expression) -> Val:
-        unit = next(
-            symbol for symbol, unit in UNITS.items() if unit.dimension in TYPE_DIMENSIONS[expected.type]
-        )
         units = [symbol for symbol, unit in UNITS.items() if unit.dimension in TYPE_DIMENSIONS[expected.type]]
-        example = f"{show(value)} {units[1] if len(units) > 1 else unit}"
+        usual = next((unit for unit in _USUAL_UNITS if unit in units), units[0])
+        example = f"{show(value)} {usual}"
         self._reporter.report(
             "XEI0307",
             f"`{show(value)}` has no unit, but {expected.what} takes {expected.noun}",
@@ -214,6 +212,7 @@ class Types:
         return (self._reporter.rule(expected.rule),) if expected.rule else ()
 
 
+_USUAL_UNITS = ("mL", "mm", "s", "min", "g", "degC", "deg", "rpm", "mM", "xg")
 _CONFUSED_UNITS = (
     ("g", "xg"),
     ("m", "min"),

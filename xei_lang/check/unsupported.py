@@ -59,7 +59,7 @@ def look_inside(expander: Expander, step: Step, scope: Scope, where: Where) -> N
     action = step.action
     if isinstance(action, Start | Measure):
         context = expander.context
-        context.calls.check(action.call, scope, expander.state, tuple(context.procedures))
+        context.calls.check(action.call, scope, expander.state)
     if isinstance(action, Measure):
         scope.declare(action.name, "measurement", POISON, expander.context.reporter)
     for block in blocks(action):

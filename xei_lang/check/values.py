@@ -116,7 +116,8 @@ def show(value: Val) -> str:
         case PlaceValue():
             return show_place(value.ref)
         case ListValue():
-            return f"a list of {len(value.items)}"
+            shown = [show(item) for item in value.items[:3]]
+            return f"[{', '.join(shown)}{', ...' if len(value.items) > 3 else ''}]"
         case Interval():
             return f"{show(value.lower)} .. {show(value.upper)}"
         case Poison():

@@ -1,0 +1,71 @@
+"""The small lab of these tests: a profile of its own, so that its lines stay where messages quote them."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+from xei_lang.check import CheckOptions, check_module
+from xei_lang.diagnostics import Diagnostics, Source, Sources
+from xei_lang.diagnostics.render.full import render_full
+from xei_lang.ir.skill_plan import SkillPlan
+from xei_lang.profiles.load import load_profile
+from xei_lang.profiles.model import Profile
+from xei_lang.syntax import Parser
+
+ROOT = Path(__file__).parents[2]
+LAB = Path(__file__).with_name("lab")
+BENCH = ROOT / "profiles" / "openarm_bench"
+
+
+@cache
+def profile(folder: Path = LAB) -> Profile:
+    loaded, diagnostics = load_profile(folder, None)
+    assert loaded is not None, diagnostics
+    return loaded
+
+
+@cache
+def parser() -> Parser:
+    return Parser()
+
+
+@cache
+def profile_sources() -> Sources:
+    files = {thing.span.file for thing in profile().objects} | {skill.span.file for skill in profile().bank.skills}
+    return {file: Source(file, (LAB / Path(file).name).read_text(encoding="utf-8")) for file in sorted(files)}
+
+
+def check(text: str, folder: Path = LAB, **options: object) -> tuple[SkillPlan | None, Diagnostics]:
+    """Check a text with options as CheckOptions has them; it must parse."""
+    source = Source("t.xei", text)
+    module, diagnostics = parser().module(source)
+    assert module is not None, render_full(diagnostics, {"t.xei": source})
+    given = CheckOptions(sources=profile_sources(), **options)  # type: ignore[arg-type]
+    return check_module(module, source, profile(folder), given)
+
+
+def plan_of(text: str, folder: Path = LAB, **options: object) -> SkillPlan:
+    """The plan of a text that must have no errors."""
+    plan, diagnostics = check(text, folder, **options)
+    assert plan is not None, rendered(text, diagnostics)
+    return plan
+
+
+def rendered(text: str, diagnostics: Diagnostics) -> str:
+    return render_full(diagnostics, {"t.xei": Source("t.xei", text)})
+
+
+def protocol(body: str) -> str:
+    """A protocol around statements."""
+    return f'protocol p {{\n  profile "lab"\n{body}\n}}\n'
+
+
+def codes(body: str, **options: object) -> list[str]:
+    """The codes that a protocol with this body gives, in order."""
+    return [diagnostic.code for diagnostic in check(protocol(body), **options)[1]]
+
+
+def ids(body: str, **options: object) -> list[str]:
+    """The step ids of a protocol with this body, which must have no errors."""
+    return [step.step_id for step in plan_of(protocol(body), **options).steps]
