@@ -102,7 +102,11 @@ def test_closed_fingers_do_not_overlap(robot: Robot) -> None:
     pin.updateGeometryPlacements(robot.model, robot.model.createData(), links, data, q)
     for side in SIDES:
         rows = [
-            [k for k, item in enumerate(links.geometryObjects) if robot.model.frames[item.parentFrame].name == name]
+            [
+                k
+                for k, item in enumerate(links.geometryObjects)
+                if robot.model.frames[item.parentFrame].name == name
+            ]
             for name in fingers(side)
         ]
         assert [len(row) for row in rows] == [6, 6]
@@ -179,7 +183,9 @@ def test_a_wire_across_the_edge_is_found_where_sampling_is_blind(robot: Robot) -
     found, blind = 0, 0
     for share in np.linspace(0.05, 0.95, 19):
         q = q_start + share * (q_end - q_start)
-        wire = StaticBody("wire", (Primitive(Capsule(0.0005, 0.003)),), at_grasp(robot, q, (0.0, 0.004, 0.013)))
+        wire = StaticBody(
+            "wire", (Primitive(Capsule(0.0005, 0.003)),), at_grasp(robot, q, (0.0, 0.004, 0.013))
+        )
         scene = empty.with_standing(wire)
         found += not scene.edge_is_free(q_start, q_end)
         blind += scene.edge_is_free_sampled(q_start, q_end, 0.05)

@@ -97,7 +97,9 @@ def test_many_poses_give_what_single_poses_give(robot: Robot, solvers: dict[Side
 
 
 def test_a_feasible_sliver_is_found(robot: Robot, solvers: dict[Side, Solver]) -> None:
-    """With the third joint at its limit to a millionth, the feasible swivel may be as thin: it must not be missed."""
+    """With the third joint at its limit to a millionth, the feasible swivel may be as thin: it must not be
+    missed.
+    """
     rng = np.random.default_rng(9)
     arm = robot.arm("right")
     lower, upper = robot.lower[arm.span], robot.upper[arm.span]
@@ -131,7 +133,9 @@ def test_the_straight_arm_is_solved(robot: Robot, solvers: dict[Side, Solver]) -
         assert np.abs(found.q[:, 3]).max() < 1e-6
 
 
-def test_out_of_reach_has_no_configuration_and_tells_by_how_much(robot: Robot, solvers: dict[Side, Solver]) -> None:
+def test_out_of_reach_has_no_configuration_and_tells_by_how_much(
+    robot: Robot, solvers: dict[Side, Solver]
+) -> None:
     q = robot.configuration("home")
     T = robot.T_base_frame(q, "openarm_left_grasp")
     T[2, 3] -= 0.25

@@ -11,13 +11,20 @@ def test_q_holds_the_slide_then_the_arms_with_their_fingers(robot: Robot) -> Non
     assert robot.joint_names[robot.slide_index] == "slide_joint"
     for side in SIDES:
         arm = robot.arm(side)
-        assert [robot.joint_names[k] for k in arm.q_indices] == [f"openarm_{side}_joint{i}" for i in range(1, 8)]
-        assert [robot.joint_names[k] for k in arm.finger_indices] == [f"openarm_{side}_finger_joint{i}" for i in (1, 2)]
+        assert [robot.joint_names[k] for k in arm.q_indices] == [
+            f"openarm_{side}_joint{i}" for i in range(1, 8)
+        ]
+        assert [robot.joint_names[k] for k in arm.finger_indices] == [
+            f"openarm_{side}_finger_joint{i}" for i in (1, 2)
+        ]
         assert list(range(robot.nq))[arm.span] == list(arm.q_indices)
 
 
 def test_the_slide_lifts_the_shoulders_from_092_to_152_m(robot: Robot) -> None:
-    heights = [robot.T_base_frame(robot.configuration(state), "openarm_left_link2")[2, 3] for state in ("low", "high")]
+    heights = [
+        robot.T_base_frame(robot.configuration(state), "openarm_left_link2")[2, 3]
+        for state in ("low", "high")
+    ]
     assert heights == pytest.approx([0.918, 1.518], abs=1e-5)
     assert robot.slide_axis == (0.0, 0.0, 1.0)
 
@@ -36,21 +43,28 @@ def test_named_configurations_stay_within_limits_and_build_on_another(robot: Rob
     for name in robot.states:
         assert robot.in_limits(robot.configuration(name)), name
     q = robot.configuration("open", onto=robot.configuration("ready"))
-    assert q[list(robot.arm("left").q_indices)] == pytest.approx(robot.configuration("ready")[robot.arm("left").span])
+    assert q[list(robot.arm("left").q_indices)] == pytest.approx(
+        robot.configuration("ready")[robot.arm("left").span]
+    )
     assert q[robot.arm("left").finger_indices[1]] == 0.044 == robot.max_opening_m("left") / 2
 
 
 def test_the_jacobian_predicts_a_small_motion(robot: Robot) -> None:
     rng = np.random.default_rng(3)
     q, dq = rng.uniform(robot.lower, robot.upper), rng.normal(size=robot.nq) * 1e-6
-    moved = robot.T_base_frame(q + dq, "openarm_left_grasp")[:3, 3] - robot.T_base_frame(q, "openarm_left_grasp")[:3, 3]
+    moved = (
+        robot.T_base_frame(q + dq, "openarm_left_grasp")[:3, 3]
+        - robot.T_base_frame(q, "openarm_left_grasp")[:3, 3]
+    )
     assert moved == pytest.approx((robot.jacobian(q, "openarm_left_grasp") @ dq)[:3], abs=1e-10)
 
 
 def test_a_payload_adds_its_weight_times_the_lever(robot: Robot) -> None:
     q = robot.configuration("ready")[None]
     still = np.zeros_like(q)
-    added = robot.with_payload("left", 0.5, (0.0, 0.0, 0.02)).torques(q, still, still) - robot.torques(q, still, still)
+    added = robot.with_payload("left", 0.5, (0.0, 0.0, 0.02)).torques(q, still, still) - robot.torques(
+        q, still, still
+    )
     T = robot.T_base_frame(q[0], "openarm_left_grasp")
     J = robot.jacobian(q[0], "openarm_left_grasp")
     lever = np.array([0.0, 0.0, 0.5 * 9.81])

@@ -1,8 +1,9 @@
 """The robot as rigid bodies: kinematics and dynamics over one configuration vector, rooted at `base_link`.
 
-A configuration `q` has one entry a joint, in pinocchio's order (`Robot.joint_names`): the slide, then for each arm, left
-first, its seven joints and its two fingers. Both fingers stand in `q`; the second one's travel must equal the first one's
-(`with_opening` sets both). All joints are prismatic or revolute with limits, so `q`, `v` and `a` have equal length.
+A configuration `q` has one entry a joint, in pinocchio's order (`Robot.joint_names`): the slide, then for
+each arm, left first, its seven joints and its two fingers. Both fingers stand in `q`; the second one's travel
+must equal the first one's (`with_opening` sets both). All joints are prismatic or revolute with limits, so
+`q`, `v` and `a` have equal length.
 """
 
 from __future__ import annotations
@@ -11,16 +12,17 @@ import importlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Any, Literal
+from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import NDArray
 
+from xei_lang.ir.skill_plan import Side
+
 pin: Any = importlib.import_module("pinocchio")  # ships no type information
 
 Array = NDArray[np.float64]
-Side = Literal["left", "right"]
 SIDES: tuple[Side, Side] = ("left", "right")
 
 
@@ -48,8 +50,8 @@ class ArmChain:
 class Robot:
     """A robot model with its arms, slide and named configurations. Make one with `load_robot`.
 
-    `lower` and `upper` (nq,) are the joint limits in rad or m; `rated_velocity` and `rated_effort` the motors' rated
-    figures of the URDF, which a calibration profile's planning limits should not exceed.
+    `lower` and `upper` (nq,) are the joint limits in rad or m; `rated_velocity` and `rated_effort` the
+    motors' rated figures of the URDF, which a calibration profile's planning limits should not exceed.
     """
 
     model: Any = field(repr=False, compare=False)
@@ -69,9 +71,11 @@ class Robot:
 
     @property
     def nq(self) -> int:
+        """How many entries `q` has."""
         return len(self.joint_names)
 
     def arm(self, side: Side) -> ArmChain:
+        """The arm on this side."""
         return self.arms[side]
 
     def configuration(self, state: str, onto: Array | None = None) -> Array:
@@ -94,9 +98,11 @@ class Robot:
         return result
 
     def max_opening_m(self, side: Side) -> float:
+        """How far apart the jaws can be."""
         return 2.0 * float(self.upper[self.arms[side].finger_indices[0]])
 
     def in_limits(self, q: Array, tolerance: float = 1e-9) -> bool:
+        """Whether all joints of `q` (nq,) are within the URDF's limits."""
         return bool(np.all(q >= self.lower - tolerance) and np.all(q <= self.upper + tolerance))
 
     def T_base_frame(self, q: Array, frame: str) -> Array:
@@ -134,15 +140,17 @@ class Robot:
 
 
 def _replaced_model(robot: Robot, model: Any) -> Robot:
-    kept = {name: getattr(robot, name) for name in Robot.__dataclass_fields__ if name not in ("model", "data")}
+    kept = {
+        name: getattr(robot, name) for name in Robot.__dataclass_fields__ if name not in ("model", "data")
+    }
     return Robot(model=model, data=model.createData(), **kept)
 
 
 def load_robot(urdf_text: str, srdf_text: str) -> Robot:
     """Build the model from URDF and SRDF text.
 
-    The SRDF's groups `left_arm`, `right_arm` and `slide` name the joints. ValueError where a group or a tool frame is missing: the
-    profile's checks come before.
+    The SRDF's groups `left_arm`, `right_arm` and `slide` name the joints. ValueError where a group or a tool
+    frame is missing: the profile's checks come before.
     """
     model = pin.buildModelFromXML(urdf_text)
     srdf = ElementTree.fromstring(srdf_text)
@@ -151,7 +159,9 @@ def load_robot(urdf_text: str, srdf_text: str) -> Robot:
     slide = groups["slide"][0] if groups.get("slide") else ""
     if slide not in names:
         raise ValueError("the SRDF has no group `slide` with a joint of the URDF")
-    arms: dict[Side, ArmChain] = {side: _arm_chain(side, groups, names) for side in SIDES if f"{side}_arm" in groups}
+    arms: dict[Side, ArmChain] = {
+        side: _arm_chain(side, groups, names) for side in SIDES if f"{side}_arm" in groups
+    }
     return Robot(
         model=model,
         data=model.createData(),
@@ -162,7 +172,9 @@ def load_robot(urdf_text: str, srdf_text: str) -> Robot:
         slide_index=names.index(slide),
         slide_axis=_prismatic_axis(model, names.index(slide)),
         states=_states(srdf),
-        disabled_pairs=tuple((str(p.get("link1")), str(p.get("link2"))) for p in srdf.findall("disable_collisions")),
+        disabled_pairs=tuple(
+            (str(p.get("link1")), str(p.get("link2"))) for p in srdf.findall("disable_collisions")
+        ),
         lower=np.array(model.lowerPositionLimit),
         upper=np.array(model.upperPositionLimit),
         rated_velocity=np.array(model.velocityLimit),
@@ -199,5 +211,7 @@ def _states(srdf: ElementTree.Element) -> Mapping[str, Mapping[str, float]]:
     states: dict[str, dict[str, float]] = {}
     for state in srdf.findall("group_state"):
         joints = states.setdefault(str(state.get("name")), {})
-        joints.update({str(joint.get("name")): float(str(joint.get("value"))) for joint in state.findall("joint")})
+        joints.update(
+            {str(joint.get("name")): float(str(joint.get("value"))) for joint in state.findall("joint")}
+        )
     return MappingProxyType({name: MappingProxyType(joints) for name, joints in states.items()})

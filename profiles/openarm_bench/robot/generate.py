@@ -95,10 +95,12 @@ def fixed(name: str, parent: str, child: str, xyz: list[float], rpy: list[float]
 
 
 def moving(kind: str, name: str, ends: tuple[str, str], figures: Figures, mimic: str = "") -> list[str]:
-    limit = " ".join(f'{key}="{number(figures[key])}"' for key in ("lower", "upper", "velocity", "effort"))
+    keys = ("lower", "upper", "velocity", "effort")
+    limit = " ".join(f'{key}="{number(figures[key])}"' for key in keys)
+    placed = origin(figures["xyz"], figures.get("rpy"))
     return [
         f'  <joint name="{name}" type="{kind}">',
-        f'    <parent link="{ends[0]}"/><child link="{ends[1]}"/>{origin(figures["xyz"], figures.get("rpy"))}',
+        f'    <parent link="{ends[0]}"/><child link="{ends[1]}"/>{placed}',
         f'    <axis xyz="{numbers(figures["axis"])}"/><limit {limit}/>{mimic}',
         "  </joint>",
     ]
@@ -179,7 +181,9 @@ def arm_states(side: str, figures: Figures) -> list[str]:
     lines: list[str] = []
     for name, values in states["arm"].items():
         signs = states["left_sign"] if side == "left" else [1] * 7
-        named = {f"openarm_{side}_joint{i + 1}": s * v for i, (s, v) in enumerate(zip(signs, values, strict=True))}
+        named = {
+            f"openarm_{side}_joint{i + 1}": s * v for i, (s, v) in enumerate(zip(signs, values, strict=True))
+        }
         lines += state(name, f"{side}_arm", named)
     for name, value in states["gripper"].items():
         lines += state(name, f"{side}_gripper", {f"openarm_{side}_finger_joint1": value})
@@ -190,7 +194,9 @@ def pairs(figures: Figures) -> list[str]:
     lines: list[str] = []
     for entry in figures["disabled_pairs"]:
         named = [tuple(pair) for pair in entry.get("fixed", [])]
-        named += [(side_link(side, a), side_link(side, b)) for side in SIDES for a, b in entry.get("side", [])]
+        named += [
+            (side_link(side, a), side_link(side, b)) for side in SIDES for a, b in entry.get("side", [])
+        ]
         for a, b in named:
             lines.append(f'  <disable_collisions link1="{a}" link2="{b}" reason="{entry["reason"]}"/>')
     return lines

@@ -37,10 +37,11 @@ class AttachedBody:
 
 @dataclass(frozen=True, slots=True)
 class Geometry:
-    """All geometry of a scene, one row each: coal objects in pinocchio's model, the body's name and its joint.
+    """All geometry of a scene, one row each: coal objects in pinocchio's model, the body's name and its
+    joint.
 
-    joint: (g,) pinocchio's joint index, 0 for what stands still. center, radius: a ball (g, 3), (g,) around the
-    geometry in the joint's frame. held: (g,) bool, held by a hand.
+    joint: (g,) pinocchio's joint index, 0 for what stands still. center, radius: a ball (g, 3), (g,) around
+    the geometry in the joint's frame. held: (g,) bool, held by a hand.
     """
 
     model: Any = field(repr=False)

@@ -1,16 +1,18 @@
 """Whether a straight line in joint space is free of collision, between its samples too.
 
-A bound on how far any point moves along the line turns clearance at one configuration into a certificate for a stretch of
-it: with every pair at least `margin` apart, no pair touches until it has closed by `margin`. Stretches that a wide margin
-does not certify are split and tried with a narrower one, as in Schwarzer, Saha, Latombe, "Exact Collision Checking of Robot Paths"
-(WAFR 2002). What remains below the narrowest margin is sampled so densely that no two bodies close by more than 0.5 mm
-unseen: a touch deeper than that, on top of the scene's padding, is never missed.
+A bound on how far any point moves along the line turns clearance at one configuration into a certificate for
+a stretch of it: with every pair at least `margin` apart, no pair touches until it has closed by `margin`.
+Stretches that a wide margin does not certify are split and tried with a narrower one, as in Schwarzer, Saha,
+Latombe, "Exact Collision Checking of Robot Paths" (WAFR 2002). What remains below the narrowest margin is
+sampled so densely that no two bodies close by more than 0.5 mm unseen: a touch deeper than that, on top of
+the scene's padding, is never missed.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +26,8 @@ UNSEEN_M = 0.0005
 
 @dataclass(frozen=True, slots=True)
 class MotionBound:
-    """How far points move per unit of each joint: `lever` (p, nq) in m per rad or per m, one row for each sort of pair.
+    """How far points move per unit of each joint: `lever` (p, nq) in m per rad or per m, one row for each
+    sort of pair.
 
     Rows are the relative motion of pairs of bodies; what holds for the greatest row holds for all.
     """
@@ -41,10 +44,10 @@ def edge_is_free(
 ) -> bool:
     """Whether the line is free. `is_clear(q, margin_m)` tells whether nothing is nearer than the margin."""
     closing = bound.closing_m(q_start, q_end)
-    open_stretches = [(0.0, 1.0)]
+    open_stretches: list[tuple[float, float]] = [(0.0, 1.0)]
     for margin in MARGINS_M:
         pieces = [piece for stretch in open_stretches for piece in _split(stretch, closing, margin)]
-        open_stretches = []
+        open_stretches.clear()
         for start, end in pieces:
             q = q_start + (start + end) / 2 * (q_end - q_start)
             if not is_clear(q, margin):
@@ -63,7 +66,7 @@ def _split(stretch: tuple[float, float], closing_m: float, margin_m: float) -> l
     start, end = stretch
     count = max(1, int(np.ceil((end - start) * closing_m / (2.0 * margin_m))))
     cuts = np.linspace(start, end, count + 1).tolist()
-    return list(zip(cuts, cuts[1:], strict=False))
+    return list(pairwise(cuts))
 
 
 def motion_bound(robot: Robot, geometry: Geometry, checked: NDArray[np.bool_]) -> MotionBound:
@@ -80,16 +83,18 @@ def motion_bound(robot: Robot, geometry: Geometry, checked: NDArray[np.bool_]) -
 
 
 def _levers(robot: Robot, geometry: Geometry) -> Array:
-    """(g, nq): a bound on how far any point of a geometry moves per unit of a joint; 0 for joints that do not move it.
+    """(g, nq): a bound on how far any point of a geometry moves per unit of a joint; 0 for joints that do not
+    move it.
 
-    For a revolute joint this is the distance to its axis, bounded by a polyline from a point of the axis over points of
-    the axes between, whose lengths no joint changes.
+    For a revolute joint this is the distance to its axis, bounded by a polyline from a point of the axis over
+    points of the axes between, whose lengths no joint changes.
     """
     axes = _axes(robot)
     levers = np.zeros((len(geometry.names), robot.nq))
-    for row, joint in enumerate(geometry.joint.tolist()):
-        if joint == 0:
+    for row, carrier in enumerate(geometry.joint.tolist()):
+        if carrier == 0:
             continue
+        joint = carrier
         center = axes[joint].rotation @ geometry.center[row] + axes[joint].origin
         reach = float(np.linalg.norm(center - axes[joint].point)) + float(geometry.radius[row])
         while joint > 0:
@@ -103,7 +108,9 @@ def _levers(robot: Robot, geometry: Geometry) -> Array:
 
 @dataclass(frozen=True, slots=True)
 class _Axis:
-    """A joint in base_link with all joints at zero; `point` lies on its axis, near the next joint or the one before."""
+    """A joint in base_link with all joints at zero; `point` lies on its axis, near the next joint or the one
+    before.
+    """
 
     rotation: Array
     origin: Array

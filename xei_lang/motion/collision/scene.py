@@ -26,7 +26,9 @@ class Contact:
 
 @dataclass(frozen=True, slots=True)
 class _Engine:
-    """The compiled scene. Placements, margins and results are overwritten by every query: one thread at a time."""
+    """The compiled scene. Placements, margins and results are overwritten by every query: one thread at a
+    time.
+    """
 
     geometry: Geometry
     data: Any
@@ -38,11 +40,12 @@ class _Engine:
 
 @dataclass(frozen=True, slots=True)
 class CollisionScene:
-    """A robot among bodies. Make one with `collision_scene`; variants share what they can and compile when first asked.
+    """A robot among bodies. Make one with `collision_scene`; variants share what they can and compile when
+    first asked.
 
-    Configurations `q` (nq,) are whole ones, fingers included: a hand's opening stands in `q`. Pairs in `allowed` may touch,
-    as may the SRDF's disabled pairs, a held object and its fingers, and what no joint moves against each other. `padding_m` is kept between
-    what stands and what moves.
+    Configurations `q` (nq,) are whole ones, fingers included: a hand's opening stands in `q`. Pairs in
+    `allowed` may touch, as may the SRDF's disabled pairs, a held object and its fingers, and what no joint
+    moves against each other. `padding_m` is kept between what stands and what moves.
     """
 
     robot: Robot
@@ -51,7 +54,7 @@ class CollisionScene:
     allowed: tuple[tuple[str, str], ...]
     padding_m: float
     _links: Any = field(repr=False, compare=False)
-    _compiled: list[_Engine] = field(default_factory=list, repr=False, compare=False)
+    _compiled: list[_Engine] = field(default_factory=list[_Engine], repr=False, compare=False)
 
     def with_attached(self, body: AttachedBody) -> CollisionScene:
         """The scene with an object in a hand; one that stood under the same name stands no more."""
@@ -84,7 +87,9 @@ class CollisionScene:
         return np.fromiter((self.in_collision(row) for row in q), dtype=np.bool_, count=len(q))
 
     def first_contact(self, q: Array) -> Contact | None:
-        """The first pair in collision, in the order robot, standing, held; None where the configuration is free."""
+        """The first pair in collision, in the order robot, standing, held; None where the configuration is
+        free.
+        """
         if not self.in_collision(q):
             return None
         engine = self._engine()
@@ -93,7 +98,8 @@ class CollisionScene:
         return next((self._contact(engine, pair) for pair, result in pairs if result.isCollision()), None)
 
     def distance(self, q: Array) -> tuple[float, str, str]:
-        """The least distance in metres between bodies that may not touch, padding left aside, and which they are.
+        """The least distance in metres between bodies that may not touch, padding left aside, and which they
+        are.
 
         Negative where they overlap; infinite, without names, where there is no pair.
         """
@@ -105,7 +111,9 @@ class CollisionScene:
         return float(engine.data.distanceResults[index].min_distance), contact.body_a, contact.body_b
 
     def edge_is_free(self, q_start: Array, q_end: Array) -> bool:
-        """Whether the straight line between two configurations is free; see `edges.py` for what that certifies."""
+        """Whether the straight line between two configurations is free; see `edges.py` for what that
+        certifies.
+        """
         engine = self._engine()
         return edge_is_free(engine.bound, q_start, q_end, self._is_clear)
 
@@ -128,7 +136,8 @@ class CollisionScene:
         return replace(self, **fields, _compiled=[])
 
     def _contact(self, engine: _Engine, pair: Any) -> Contact:
-        return Contact(engine.geometry.names[pair.first], engine.geometry.names[pair.second])
+        names = engine.geometry.names
+        return Contact(names[int(pair.first)], names[int(pair.second)])
 
     def _engine(self) -> _Engine:
         if not self._compiled:
@@ -143,7 +152,9 @@ class CollisionScene:
         still = geometry.joint == 0
         padding = self.padding_m * (still[:, None] ^ still[None, :])
         data.setSecurityMargins(geometry.model, padding, True, True)
-        broad_phase = pin.BroadPhaseManager_DynamicAABBTreeCollisionManager(self.robot.model, geometry.model, data)
+        broad_phase = pin.BroadPhaseManager_DynamicAABBTreeCollisionManager(
+            self.robot.model, geometry.model, data
+        )
         bound = motion_bound(self.robot, geometry, checked)
         return _Engine(geometry, data, self.robot.model.createData(), broad_phase, padding, bound)
 
@@ -151,7 +162,9 @@ class CollisionScene:
         """Upper triangle (g, g) of pairs that may not touch."""
         ignored = {frozenset(pair) for pair in (*self.robot.disabled_pairs, *self.allowed)}
         for body in self.attached:
-            ignored |= {frozenset((body.name, f"openarm_{body.side}_{finger}_finger")) for finger in ("left", "right")}
+            ignored |= {
+                frozenset((body.name, f"openarm_{body.side}_{finger}_finger")) for finger in ("left", "right")
+            }
         order = {name: index for index, name in enumerate(dict.fromkeys(geometry.names))}
         may_not_touch = np.ones((len(order), len(order)), dtype=np.bool_)
         for pair in ignored:
@@ -160,7 +173,11 @@ class CollisionScene:
                 may_not_touch[known[0], known[1]] = may_not_touch[known[1], known[0]] = False
         np.fill_diagonal(may_not_touch, False)
         body = np.array([order[name] for name in geometry.names])
-        apart = (geometry.joint[:, None] != geometry.joint[None, :]) | geometry.held[:, None] | geometry.held[None, :]
+        apart = (
+            (geometry.joint[:, None] != geometry.joint[None, :])
+            | geometry.held[:, None]
+            | geometry.held[None, :]
+        )
         return np.triu(may_not_touch[body[:, None], body[None, :]] & apart, 1)
 
 

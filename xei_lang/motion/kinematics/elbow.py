@@ -1,4 +1,6 @@
-"""The elbow of an S-R-S arm: its angle from the shoulder-wrist distance, and the frame that the swivel angle turns."""
+"""The elbow of an S-R-S arm: its angle from the shoulder-wrist distance, and the frame that the swivel angle
+turns.
+"""
 
 from __future__ import annotations
 
@@ -38,7 +40,9 @@ class Elbow:
     reach_m: tuple[float, float]
 
     def angle(self, distance_m: Array, bend: float) -> tuple[Array, NDArray[np.bool_]]:
-        """q4 (m,) at which shoulder and wrist are `distance_m` (m,) apart, and whether reach and limits allow it."""
+        """q4 (m,) at which shoulder and wrist are `distance_m` (m,) apart, and whether reach and limits allow
+        it.
+        """
         cosine = (self.squares - distance_m * distance_m) / (2.0 * self.amplitude)
         middle = (self.lower + self.upper) / 2
         turn = self.phase + bend * np.arccos(np.minimum(np.maximum(cosine, -1.0), 1.0)) - middle
@@ -48,7 +52,9 @@ class Elbow:
         return np.minimum(np.maximum(angle, self.lower), self.upper), valid
 
     def frames(self, angle: Array) -> tuple[Array, Array]:
-        """Frame (m, 3, 3) with x from shoulder to wrist and y the hinge, seen before joint 4 and seen after it."""
+        """Frame (m, 3, 3) with x from shoulder to wrist and y the hinge, seen before joint 4 and seen after
+        it.
+        """
         cosine, sine = np.cos(angle)[:, None], np.sin(angle)[:, None]
         before = cosine * self.forearm + sine * self.across_forearm - self.upper_arm
         after = self.forearm - cosine * self.upper_arm + sine * self.across_upper_arm
@@ -69,6 +75,7 @@ class Elbow:
 
 
 def elbow(geometry: SrsGeometry) -> Elbow:
+    """The elbow of a measured arm."""
     v, u, a = geometry.shoulder - geometry.elbow, geometry.wrist - geometry.elbow, geometry.elbow_axis
     even, odd = float(v @ u), float(v @ np.cross(a, u))
     phase, amplitude = float(np.arctan2(odd, even)), float(np.hypot(even, odd))
@@ -76,7 +83,9 @@ def elbow(geometry: SrsGeometry) -> Elbow:
     lower, upper = float(geometry.lower[3]), float(geometry.upper[3])
     sines = np.sin(np.linspace(lower, upper, 103)[1:-1] - phase)
     extremes = [t for t in (phase, phase + np.pi, phase - np.pi) if lower <= t <= upper]
-    distances = [np.sqrt(max(0.0, squares - 2 * amplitude * np.cos(t - phase))) for t in (lower, upper, *extremes)]
+    distances = [
+        np.sqrt(max(0.0, squares - 2 * amplitude * np.cos(t - phase))) for t in (lower, upper, *extremes)
+    ]
     return Elbow(
         upper_arm=v,
         forearm=u,

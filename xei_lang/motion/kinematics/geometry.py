@@ -1,7 +1,8 @@
-"""Measures an arm's S-R-S geometry on the model: two spherical joints, shoulder and wrist, and an elbow hinge.
+"""Measures an arm's S-R-S geometry on the model: two spherical joints, shoulder and wrist, and an elbow
+hinge.
 
-All vectors are in base_link with every joint, slide included, at zero. Nothing is assumed of the arm's side: left and
-right differ where the model says so.
+All vectors are in base_link with every joint, slide included, at zero. Nothing is assumed of the arm's side:
+left and right differ where the model says so.
 """
 
 from __future__ import annotations
@@ -20,8 +21,8 @@ RIGHT_ANGLE_TOLERANCE = 1e-9
 class Spherical:
     """Three joints whose axes meet in a point, the middle one at right angles to its neighbours.
 
-    `exp(a1 q1) exp(a2 q2) exp(a3 q3) = basis Rz(q1) Ry(q2 + offset) Rz(q3) after.T`, with basis = [a2 x a1, a2, a1]
-    and offset the angle about a2 from a1 to a3.
+    `exp(a1 q1) exp(a2 q2) exp(a3 q3) = basis Rz(q1) Ry(q2 + offset) Rz(q3) after.T`, with basis = [a2 x a1,
+    a2, a1] and offset the angle about a2 from a1 to a3.
     """
 
     basis: Array
@@ -49,8 +50,8 @@ class SrsGeometry:
 def srs_geometry(robot: Robot, side: Side) -> SrsGeometry | None:
     """The arm's S-R-S geometry, or None where its axes do not meet as closed form needs.
 
-    Asked for: axes 1-3 meet, axes 5-7 meet, axes 1-2, 2-3, 5-6, 6-7 at right angles, and the elbow axis at right
-    angles to the lines from it to shoulder and wrist.
+    Asked for: axes 1-3 meet, axes 5-7 meet, axes 1-2, 2-3, 5-6, 6-7 at right angles, and the elbow axis at
+    right angles to the lines from it to shoulder and wrist.
     """
     arm = robot.arm(side)
     q = np.zeros(robot.nq)
@@ -93,7 +94,9 @@ def _axes(robot: Robot, joint_names: tuple[str, ...]) -> tuple[Array, Array]:
 def _meeting_point(points: Array, axes: Array) -> Array | None:
     """The point nearest to all lines, or None where it misses one of them."""
     projectors = np.eye(3) - axes[:, :, None] * axes[:, None, :]
-    point: Array = np.linalg.solve(projectors.sum(axis=0), np.einsum("kij,kj->i", projectors, points))
+    total: Array = np.add.reduce(projectors, axis=0)
+    moment: Array = np.einsum("kij,kj->i", projectors, points)
+    point = np.asarray(np.linalg.solve(total, moment), dtype=np.float64)
     misses = np.linalg.norm(np.einsum("kij,kj->ki", projectors, point - points), axis=1)
     return point if float(misses.max()) < INTERSECTION_TOLERANCE_M else None
 

@@ -1,7 +1,8 @@
 """Numerical inverse kinematics for arms that are not S-R-S: damped least squares from seeded restarts.
 
-Wampler, "Manipulator Inverse Kinematic Solutions Based on Vector Formulations and Damped Least-Squares Methods",
-IEEE T-SMC 16(1), 1986, with the damping following the error (Sugihara, IEEE T-RO 27(5), 2011). It may miss postures, and poses.
+Wampler, "Manipulator Inverse Kinematic Solutions Based on Vector Formulations and Damped Least-Squares
+Methods", IEEE T-SMC 16(1), 1986, with the damping following the error (Sugihara, IEEE T-RO 27(5), 2011). It
+may miss postures, and poses.
 """
 
 from __future__ import annotations
@@ -30,8 +31,9 @@ _WITHOUT_SWIVEL = np.delete(_ALL, SWIVEL_JOINT)
 
 @dataclass(frozen=True, slots=True)
 class NumericalArm:
-    """See `Solver`. The swivel angle is the third joint's angle; a branch is a bit set of the joints that stand below the
-    middle of their limits: 1 the second, 2 the sixth, 4 the fourth. Along `at_many` only the first pose's branch is held, later ones follow it.
+    """See `Solver`. The swivel angle is the third joint's angle; a branch is a bit set of the joints that
+    stand below the middle of their limits: 1 the second, 2 the sixth, 4 the fourth. Along `at_many` only the
+    first pose's branch is held, later ones follow it.
     """
 
     robot: Robot
@@ -39,9 +41,11 @@ class NumericalArm:
 
     @property
     def name(self) -> str:
+        """`numerical-lm`."""
         return "numerical-lm"
 
     def solve(self, T_base_tool: Array, slide_m: float) -> Solutions:
+        """What the restarts find, each once."""
         found: list[Array] = []
         for seed in self._seeds(RESTARTS):
             q = self._descend(T_base_tool, slide_m, seed, _ALL)
@@ -56,15 +60,18 @@ class NumericalArm:
         )
 
     def solve_many(self, T_base_tool: Array, slide_m: float | Array) -> list[Solutions]:
+        """`solve`, pose by pose."""
         heights = np.broadcast_to(np.asarray(slide_m, dtype=np.float64), (len(T_base_tool),))
         return [self.solve(T, float(height)) for T, height in zip(T_base_tool, heights, strict=True)]
 
     def at(self, T_base_tool: Array, slide_m: float, swivel_angle: float, branch: int) -> Array | None:
+        """The first restart's result on this branch."""
         return self._first(T_base_tool, slide_m, swivel_angle, lambda q: self.describe(q)[1] == branch)
 
     def at_many(
         self, T_base_tool: Array, slide_m: float | Array, swivel_angle: float | Array, branch: int
     ) -> tuple[Array, NDArray[np.bool_]]:
+        """`at` for the first pose, then each from the one before."""
         count = len(T_base_tool)
         heights = np.broadcast_to(np.asarray(slide_m, dtype=np.float64), (count,))
         angles = np.broadcast_to(np.asarray(swivel_angle, dtype=np.float64), (count,))
@@ -81,6 +88,7 @@ class NumericalArm:
         return rows, valid
 
     def describe(self, q_arm: Array) -> tuple[float, int]:
+        """The third joint's angle and the branch."""
         lower, upper = self._limits()
         below = q_arm < (lower + upper) / 2
         return float(q_arm[SWIVEL_JOINT]), int(below[1]) + 2 * int(below[5]) + 4 * int(below[3])
@@ -116,8 +124,10 @@ class NumericalArm:
         lower, upper = self._limits()
         return np.random.default_rng(SEED).uniform(lower, upper, (count, 7))
 
-    def _descend(self, T_base_tool: Array, slide_m: float, seed: Array, free: NDArray[np.int64]) -> Array | None:
-        """Descend over the `free` joints, kept within limits; None where the error stays above the tolerance."""
+    def _descend(
+        self, T_base_tool: Array, slide_m: float, seed: Array, free: NDArray[np.int64]
+    ) -> Array | None:
+        """Descend over the `free` joints within limits; None where the error stays above the tolerance."""
         arm = self.robot.arm(self.side)
         columns = np.array(arm.q_indices)[free]
         lower, upper = self.robot.lower[columns], self.robot.upper[columns]

@@ -44,7 +44,9 @@ class Solver(Protocol):
         ...
 
     def at(self, T_base_tool: Array, slide_m: float, swivel_angle: float, branch: int) -> Array | None:
-        """The one configuration (7,) with this swivel angle and branch; None where a limit or the reach forbids it."""
+        """The one configuration (7,) with this swivel angle and branch; None where a limit or the reach
+        forbids it.
+        """
         ...
 
     def at_many(

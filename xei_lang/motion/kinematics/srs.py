@@ -1,19 +1,23 @@
-"""Closed-form inverse kinematics of an arm with a spherical shoulder, a hinge elbow and a spherical wrist (S-R-S).
+"""Closed-form inverse kinematics of an arm with a spherical shoulder, a hinge elbow and a spherical wrist
+(S-R-S).
 
-The tool pose fixes the wrist centre, its distance from the shoulder fixes the elbow, and what is left free is one angle: the
-swivel of the elbow about the line from shoulder to wrist. It is 0 where the elbow's hinge lies in the plane of
-that line and the arm's first axis. The geometry is measured (`geometry.py`), the limits on the swivel are exact (`swivel.py`).
+The tool pose fixes the wrist centre, its distance from the shoulder fixes the elbow, and what is left free is
+one angle: the swivel of the elbow about the line from shoulder to wrist. It is 0 where the elbow's hinge lies
+in the plane of that line and the arm's first axis. The geometry is measured (`geometry.py`), the limits on
+the swivel are exact (`swivel.py`).
 
-A branch is a bit set: 1 the shoulder's middle joint flipped, 2 the wrist's, 4 the elbow bent the other way; limits
-leave only some. Singular cases: with the arm straight the swivel turns the whole arm and stays well defined, since
-it is told by the hinge and not by the elbow's place. With the wrist on the first axis the angle is measured from another
-fixed direction. With a spherical joint's outer axes in line only the sum of their angles is fixed; the solution returned
-is one of many. Feasible intervals narrower than rounding (1e-12 rad) may be missed.
+A branch is a bit set: 1 the shoulder's middle joint flipped, 2 the wrist's, 4 the elbow bent the other way;
+limits leave only some. Singular cases: with the arm straight the swivel turns the whole arm and stays well
+defined, since it is told by the hinge and not by the elbow's place. With the wrist on the first axis the
+angle is measured from another fixed direction. With a spherical joint's outer axes in line only the sum of
+their angles is fixed; the solution returned is one of many. Feasible intervals narrower than rounding (1e-12
+rad) may be missed.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,7 +36,9 @@ _SIGNS = np.array([1.0, -1.0])
 
 @dataclass(frozen=True, slots=True)
 class _Poses:
-    """Tool poses with all but the swivel angle settled: entries (m, 2, 3, 9) of shoulder and wrist, elbow (m,)."""
+    """Tool poses with all but the swivel angle settled: entries (m, 2, 3, 9) of shoulder and wrist, elbow
+    (m,).
+    """
 
     entries: Array
     elbow: Array
@@ -56,22 +62,27 @@ class SrsArm:
 
     @property
     def name(self) -> str:
+        """`srs-closed-form`."""
         return "srs-closed-form"
 
     def solve(self, T_base_tool: Array, slide_m: float) -> Solutions:
+        """Configurations spread over all feasible swivel angles of all branches."""
         return self.solve_many(T_base_tool[None], slide_m)[0]
 
     def solve_many(self, T_base_tool: Array, slide_m: float | Array) -> list[Solutions]:
+        """`solve` for many poses at once, ten times as fast a pose."""
         parts = [self._solve_bend(T_base_tool, slide_m, bend) for bend in self.elbow.bends]
         return parts[0] if len(parts) == 1 else [_joined(both) for both in zip(*parts, strict=True)]
 
     def at(self, T_base_tool: Array, slide_m: float, swivel_angle: float, branch: int) -> Array | None:
+        """The configuration with this swivel angle and branch."""
         q, valid = self.at_many(T_base_tool[None], slide_m, swivel_angle, branch)
         return q[0] if valid[0] else None
 
     def at_many(
         self, T_base_tool: Array, slide_m: float | Array, swivel_angle: float | Array, branch: int
     ) -> tuple[Array, swivel.Mask]:
+        """`at` for many poses at once."""
         count = len(T_base_tool)
         poses = self._poses(T_base_tool, slide_m, _sign(branch, 4))
         angle = np.broadcast_to(np.asarray(swivel_angle, dtype=np.float64), (count,))
@@ -81,6 +92,7 @@ class SrsArm:
         return self._assembled(turned, poses.elbow), valid
 
     def describe(self, q_arm: Array) -> tuple[float, int]:
+        """Swivel angle and branch of a configuration."""
         g = self.geometry
         R_shoulder = _rotation(g.shoulder_joint, q_arm[:3])
         local = self.elbow.frames(q_arm[3:4])[0][0]
@@ -92,6 +104,7 @@ class SrsArm:
         return float(np.arctan2(turned[2, 1], turned[1, 1])), branch
 
     def reach_shortfall(self, T_base_tool: Array, slide_m: float) -> float:
+        """Metres between the pose's wrist and the shell that the elbow's limits let it reach."""
         nearest, farthest = self.elbow.reach_m
         distance = float(np.linalg.norm(self._shoulder_to_wrist(T_base_tool[None], slide_m)))
         return max(0.0, distance - farthest, nearest - distance)
@@ -140,14 +153,14 @@ class SrsArm:
         flips[:, 0, 0] = _SIGNS[self.shoulder_flips[samples.column]]
         flips[:, 1, 0] = _SIGNS[self.wrist_flips[samples.column]]
         turned = swivel.joint_angles(poses.entries[samples.row], samples.angle, flips, self.limits)
-        sound = swivel.within(turned, self.limits)[:, :, 0].all(axis=1)
+        sound: swivel.Mask = np.logical_and.reduce(swivel.within(turned, self.limits)[:, :, 0], axis=1)
         if not sound.all():
             samples, turned = samples.chosen(sound), turned[sound]
         q = self._assembled(turned, poses.elbow[samples.row])
         branch = (self.shoulder_flips + 2 * self.wrist_flips + (4 if bend < 0 else 0))[samples.column]
         angle = swivel.wrapped(samples.angle)
         ends = np.searchsorted(samples.row, np.arange(len(T_base_tool) + 1)).tolist()
-        return [Solutions(q[a:b], angle[a:b], branch[a:b]) for a, b in zip(ends, ends[1:], strict=False)]
+        return [Solutions(q[a:b], angle[a:b], branch[a:b]) for a, b in pairwise(ends)]
 
     def _feasible(self, poses: _Poses, cuts: Array) -> swivel.Mask:
         """Whether each interval (m, k) between cuts is within limits, for each branch: (m, b, k)."""
@@ -166,6 +179,7 @@ class SrsArm:
 
 
 def srs_arm(geometry: SrsGeometry) -> SrsArm:
+    """The closed-form solver for a measured geometry."""
     lower, upper = geometry.lower[[[0, 1, 2], [4, 5, 6]]], geometry.upper[[[0, 1, 2], [4, 5, 6]]]
     joints = (geometry.shoulder_joint, geometry.wrist_joint)
     shoulder, wrist = (
@@ -175,7 +189,10 @@ def srs_arm(geometry: SrsGeometry) -> SrsArm:
         geometry=geometry,
         elbow=elbow(geometry),
         limits=swivel.limits(joints, lower, upper),
-        across_axes=(across(geometry.shoulder_joint.basis[:, 2]), across(geometry.shoulder_joint.basis[:, 0])),
+        across_axes=(
+            across(geometry.shoulder_joint.basis[:, 2]),
+            across(geometry.shoulder_joint.basis[:, 0]),
+        ),
         R_tool_wrist=geometry.R_base_tool_zero.T @ geometry.wrist_joint.after,
         shoulder_flips=np.repeat(np.array(shoulder), len(wrist)),
         wrist_flips=np.tile(np.array(wrist), len(shoulder)),

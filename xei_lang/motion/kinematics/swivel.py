@@ -1,9 +1,11 @@
-"""A spherical joint turned by the swivel angle: joint angles, and the exact angles at which one meets a limit.
+"""A spherical joint turned by the swivel angle: joint angles, and the exact angles at which one meets a
+limit.
 
-Every matrix entry that the joint angles come from is `a + b cos(psi) + c sin(psi)`. So a joint reaches a limit at
-the roots of one such equation, two at most, and between neighbouring roots of all joints nothing changes: testing one angle
-between each pair decides the whole circle. After Shimizu, Kakuya, Yoon, Kitagaki, Kosuge, "Analytical Inverse Kinematic
-Computation for 7-DOF Redundant Manipulators With Joint Limits", IEEE T-RO 24(5), 2008, section IV.
+Every matrix entry that the joint angles come from is `a + b cos(psi) + c sin(psi)`. So a joint reaches a
+limit at the roots of one such equation, two at most, and between neighbouring roots of all joints nothing
+changes: testing one angle between each pair decides the whole circle. After Shimizu, Kakuya, Yoon, Kitagaki,
+Kosuge, "Analytical Inverse Kinematic Computation for 7-DOF Redundant Manipulators With Joint Limits", IEEE
+T-RO 24(5), 2008, section IV.
 """
 
 from __future__ import annotations
@@ -20,7 +22,8 @@ Mask = NDArray[np.bool_]
 TWO_PI = 2.0 * np.pi
 ANGLE_TOLERANCE = 1e-10
 
-# Entries of M = Rz(q1) Ry(t) Rz(q3) in the order that this file keeps them; the first five tell where limits are met.
+# Entries of M = Rz(q1) Ry(t) Rz(q3) in the order that this file keeps them; the first five tell where
+# limits are met.
 _ROWS = np.array([2, 0, 1, 2, 2, 0, 0, 1, 1])
 _COLUMNS = np.array([2, 2, 2, 0, 1, 0, 1, 0, 1])
 _TURN = np.array([[1.0], [-1.0]])
@@ -28,7 +31,9 @@ _TURN = np.array([[1.0], [-1.0]])
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """Two spherical joints' limits (2, 1, 3), and the equations (2, 5, 6) and constants (2, 6) of meeting one."""
+    """Two spherical joints' limits (2, 1, 3), and the equations (2, 5, 6) and constants (2, 6) of meeting
+    one.
+    """
 
     lower: Array
     upper: Array
@@ -66,7 +71,9 @@ def entries(left: Array, right: Array) -> Array:
 
 
 def critical_angles(coefficients: Array, bounds: Limits) -> Array:
-    """Sorted angles (m, 24) in [-pi, pi) at which a joint may meet a limit; -pi stands for each root that is not there."""
+    """Sorted angles (m, 24) in [-pi, pi) at which a joint may meet a limit; -pi stands for each root that is
+    not there.
+    """
     equations = coefficients[..., :5] @ bounds.equations
     constant = equations[:, :, 0] + bounds.constants
     cosine, sine = equations[:, :, 1], equations[:, :, 2]
@@ -87,8 +94,8 @@ def wrapped(angle: Array) -> Array:
 def joint_angles(coefficients: Array, swivel_angle: Array, flips: Array, bounds: Limits) -> Array:
     """Joint angles (n, ..., 2, f, 3) at swivel angles (n, ...) of shoulder and wrist, one row for each flip.
 
-    coefficients: (n, 2, 3, 9) as `entries` gives them. flips: broadcast to (..., 2, f), the sign of sin(q2 + offset). Each angle is the
-    representative nearest to the middle of its limits.
+    coefficients: (n, 2, 3, 9) as `entries` gives them. flips: broadcast to (..., 2, f), the sign of sin(q2 +
+    offset). Each angle is the representative nearest to the middle of its limits.
     """
     weights = np.ones((*swivel_angle.shape, 3))
     np.cos(swivel_angle, out=weights[..., 1])
@@ -99,8 +106,8 @@ def joint_angles(coefficients: Array, swivel_angle: Array, flips: Array, bounds:
     result = np.empty((*values.shape[:-1], flips.shape[-1], 3))
     np.arctan2(flips * m12, flips * m02, out=result[..., 0])
     np.arctan2(flips * size, m22, out=result[..., 1])
-    # The third angle follows from the first, not from M20 and M21: where the outer axes come in line these are all
-    # rounding, and the sum of the two angles would be too.
+    # The third angle follows from the first, not from M20 and M21: where the outer axes come in line these
+    # are all rounding, and the sum of the two angles would be too.
     cosine, sine = np.cos(result[..., 0]), np.sin(result[..., 0])
     np.arctan2(cosine * m10 - sine * m00, cosine * m11 - sine * m01, out=result[..., 2])
     result[..., 1] -= bounds.offset
@@ -136,10 +143,11 @@ class Samples:
 
 
 def sample_intervals(cuts: Array, feasible: Mask, count: int) -> Samples:
-    """About `count` angles a row, spread over the feasible intervals in proportion, at least the middle of each.
+    """About `count` angles a row, spread over the feasible intervals in proportion, at least the middle of
+    each.
 
-    cuts: (m, k) sorted angles. feasible: (m, b, k) whether the interval from cut k to the next, past the last to the
-    first around the circle, is feasible for branch b. An interval across the first cut counts as two.
+    cuts: (m, k) sorted angles. feasible: (m, b, k) whether the interval from cut k to the next, past the last
+    to the first around the circle, is feasible for branch b. An interval across the first cut counts as two.
     """
     padded = np.zeros((*feasible.shape[:2], feasible.shape[2] + 2), dtype=np.bool_)
     padded[:, :, 1:-1] = feasible
