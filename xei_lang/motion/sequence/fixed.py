@@ -9,12 +9,12 @@ import numpy as np
 
 from xei_lang.ir.geometry import Pose
 from xei_lang.ir.goals import Grip, JointTarget, MotionGoal, MoveTo, NavToPose, Perceive, SlideMove, Wait
-from xei_lang.motion.paths.free import PathBlocked, plan_free_path
+from xei_lang.motion.paths.free import PathBlocked
+from xei_lang.motion.sequence.both_arms import plan_joints
 from xei_lang.motion.sequence.context import Context
 from xei_lang.motion.sequence.enact import grip, still
 from xei_lang.motion.sequence.motions import Motion
 from xei_lang.motion.sequence.snapshot import Snapshot
-from xei_lang.motion.sequence.space import space_for
 
 PERCEIVE_S = 1.0
 """Nominal time to ground a frame again: the schedule must hold a place for it; the run waits for the real one."""
@@ -47,9 +47,8 @@ def _to_joints(
     joints = tuple(joint for joint, _ in sorted(target.joints, key=lambda row: names.index(row[0])))
     wanted = dict(target.joints)
     indices = [names.index(joint) for joint in joints]
-    space = space_for(context, before, joints, goal.allowed_contacts)
     q_goal = np.array([wanted[joint] for joint in joints])
-    found = plan_free_path(space, before.q[indices], q_goal, context.goal_seed(goal.id))
+    found = plan_joints(context, before, joints, q_goal, goal.allowed_contacts, context.goal_seed(goal.id))
     if isinstance(found, PathBlocked):
         return found
     q = before.q.copy()

@@ -125,6 +125,14 @@ class SceneSpace:
     rest: Array
     columns: tuple[int, ...]
 
+    def narrowed(self, q: Array, moving: list[int]) -> SceneSpace:
+        """The space of some of these joints, by index, the others at rest in `q` (n,)."""
+        names = tuple(self.joints[index] for index in moving)
+        columns = tuple(self.columns[index] for index in moving)
+        return SceneSpace(
+            names, self.lower[moving], self.upper[moving], self.speed[moving], self.scene, self._whole(q), columns
+        )
+
     def is_free(self, q: Array) -> bool:
         return not self.scene.in_collision(self._whole(q))
 
