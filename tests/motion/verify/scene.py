@@ -165,11 +165,11 @@ def pick_and_place() -> Case:
     foot = (x, y, z - GRIP_HEIGHT)
     place = (x - 0.02, y - 0.14, foot[2])
     table_top = foot[2] - 0.005
-    back = tuple(-0.06 * value for value in T_base_tool.axes()[2])
+    back = tuple(-0.04 * value for value in T_base_tool.axes()[2])
     approach = arm.follow(grasp, RIGHT, TOOL, back, 12)[::-1]
-    lift = arm.follow(grasp, RIGHT, TOOL, (0.0, 0.0, 0.1), 12)
+    lift = arm.follow(grasp, RIGHT, TOOL, (0.0, 0.0, 0.05), 12)
     carry = arm.follow(lift[-1], RIGHT, TOOL, (place[0] - x, place[1] - y, 0.0), 12)
-    lower = arm.follow(carry[-1], RIGHT, TOOL, (0.0, 0.0, -0.1), 12)
+    lower = arm.follow(carry[-1], RIGHT, TOOL, (0.0, 0.0, -0.05), 12)
     retreat = arm.follow(lower[-1], RIGHT, TOOL, back, 12)
     family = Family(
         "tube_1_grasps", "tube_1", (
@@ -198,7 +198,7 @@ def pick_and_place() -> Case:
     story.act("attach", Attach("tube_1", "right", family.id), "right_gripper")
     T_hand_tool = arm.tool(grasp, HAND).inverse() @ T_base_tool
     story.attached = (Attachment("tube_1", HAND, T_hand_tool @ T_base_tool.inverse() @ Pose(foot)),)
-    up = {"offset_base_m": (0.0, 0.0, 0.1)}
+    up = {"offset_base_m": (0.0, 0.0, 0.05)}
     story.move("move_to", to(foot, **up), "right_arm", lift, RIGHT, in_rack, arm="right")
     story.move("move_to", to(place, "free", **up), "right_arm", carry, RIGHT, arm="right")
     story.move("move_to", to(place), "right_arm", lower, RIGHT, in_slot, arm="right")
@@ -206,7 +206,7 @@ def pick_and_place() -> Case:
     story.attached = ()
     put = Detach("tube_1", "right", 'rack_2.slot("A1")', Pose(place))
     story.act("detach", put, "right_gripper", placed=(Placement("tube_1", Pose(place)),))
-    off = {"offset_tool_m": (0.0, 0.0, -0.06)}
+    off = {"offset_tool_m": (0.0, 0.0, -0.04)}
     story.move("move_to", to(place, **off), "right_arm", retreat, RIGHT, fingers, arm="right")
     plan, graph = story.finish(start, (family,), (Epoch(0, "bench_a", Pose()),))
     objects = (
@@ -225,7 +225,7 @@ def tour() -> Case:
     start = all_joints()
     story = Story(dict(start))
     named = {
-        "ready": dict(zip(RIGHT, (-0.5, 0.9, 1.2, 2.1, 1.2, 0.0, -0.9), strict=True)),
+        "aside": dict(zip(RIGHT, (-0.7, 0.4, 0.3, 1.9, 0.3, 0.0, -0.9), strict=True)),
         "transport": {name: start[name] for name in RIGHT},
     }
 
@@ -238,14 +238,14 @@ def tour() -> Case:
         rows = [story.joints, {**story.joints, "slide_joint": height}]
         story.move("slide_move", SlideMove(height), "slide", rows, ["slide_joint"])
 
-    right("ready")
-    slide(0.32)
+    right("aside")
+    slide(0.31)
     story.act("wait", Wait(0.2), "person", 0.2)
     right("transport")
     T_world_base = Pose.from_rpy((0.0, 3.0, 0.0), (0.0, 0.0, 1.0))
     story.act("nav_to_pose", NavToPose("bench_b", T_world_base, 0.05, 0.1), "base", 2.0)
     story.epoch = 1
-    right("ready")
+    right("aside")
     slide(0.30)
     epochs = (Epoch(0, "bench_a", Pose()), Epoch(1, "bench_b", T_world_base))
     plan, graph = story.finish(start, (), epochs)

@@ -122,13 +122,13 @@ def _check_joint(
 def check_jumps(context: Context) -> None:
     """Position and velocity are continuous inside each goal and from goal to goal of a joint; motion starts where
     the joint stood (`start` at first) and stops unless the joint's next goal takes over at once."""
-    next_start = _next_starts(context.plan)
+    next_start, first_of = _next_starts(context.plan), _first_goals(context.plan)
     for goal in context.plan.goals:
         motion = context.timeline.motions.get(goal.id)
         if motion is None:
             continue
         _check_inside(context, goal, motion)
-        _check_ends(context, goal, motion, next_start)
+        _check_ends(context, goal, motion, next_start, first_of)
 
 
 def _check_inside(context: Context, goal: TimedGoal, motion: Motion) -> None:
@@ -178,12 +178,15 @@ def _next_starts(plan: TimedPlan) -> Mapping[tuple[str, str], TimedGoal]:
 
 
 def _check_ends(
-    context: Context, goal: TimedGoal, motion: Motion, following: Mapping[tuple[str, str], TimedGoal]
+    context: Context,
+    goal: TimedGoal,
+    motion: Motion,
+    following: Mapping[tuple[str, str], TimedGoal],
+    first_of: Mapping[str, str],
 ) -> None:
     options, robot = context.options, context.robot
     (q0, v0), (_, v1) = motion.ends()
     stood = context.timeline.starts[goal.id].q
-    first_of = _first_goals(context.plan)
     for column, joint in enumerate(goal.joints):
         if joint not in robot.column:
             continue

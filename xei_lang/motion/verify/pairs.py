@@ -39,9 +39,7 @@ class Pairs:
         self.first = np.array([index[a] for a, _ in self.pairs], dtype=np.int64)
         self.second = np.array([index[b] for _, b in self.pairs], dtype=np.int64)
         self.radii = np.array([bodies.bodies[name].radius for name in self.names])
-        self.second_rows: dict[str, Rows] = {
-            name: np.flatnonzero(self.second == index[name]) for name in objects
-        }
+        self._index = index
         self._links = len(links)
         self._groups = group_links(srdf_text, self.robot)
         self._granted = {goal.id: self._spread(goal.allowed_contacts) for goal in graph.goals}
@@ -131,10 +129,10 @@ class Pairs:
         difference = centers[:, a] - centers[:, b]
         gaps = np.sqrt(np.einsum("nij,nij->ni", difference, difference)) - self.radii[a] - self.radii[b]
         for name in dict.fromkeys(self.pairs[row][1] for row in rows):
-            if name in self.carriers or name not in self.second_rows:
-                continue
             body = self.bodies.bodies[name]
-            places = np.flatnonzero(np.isin(rows, self.second_rows[name]))
+            if name in self.carriers or body.is_link:
+                continue
+            places = np.flatnonzero(b == self._index[name])
             rotation, origin = to_frame(scene.objects[name])
             local = (centers[:, a[places]] - origin) @ rotation
             outside = np.maximum(np.maximum(body.low - local, local - body.high), 0.0)
