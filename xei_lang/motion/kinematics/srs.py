@@ -36,7 +36,7 @@ _SIGNS = np.array([1.0, -1.0])
 
 @dataclass(frozen=True, slots=True)
 class _Poses:
-    """Tool poses with all but the swivel angle settled: entries (m, 2, 3, 9) of shoulder and wrist, elbow
+    """Tool poses with all but the swivel angle settled: entries (m, 3, 2, 9) of shoulder and wrist, elbow
     (m,).
     """
 

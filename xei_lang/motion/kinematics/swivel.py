@@ -58,15 +58,15 @@ def limits(joints: tuple[Spherical, Spherical], lower: Array, upper: Array) -> L
 
 
 def entries(left: Array, right: Array) -> Array:
-    """Coefficients (m, 2, 3, 9) of 1, cos and sin of psi in the kept entries of `left Rx(psi) right.T`.
+    """Coefficients (m, 3, 2, 9) of 1, cos and sin of psi in the kept entries of `left Rx(psi) right.T`.
 
     left, right: (m, 2, 3, 3) for shoulder and wrist; the wrist turns by -psi.
     """
     p, q = left[:, :, _ROWS, :], right[:, :, _COLUMNS, :]
-    result = np.empty((len(left), 2, 3, 9))
-    np.multiply(p[..., 0], q[..., 0], out=result[:, :, 0])
-    result[:, :, 1] = p[..., 1] * q[..., 1] + p[..., 2] * q[..., 2]
-    result[:, :, 2] = (p[..., 2] * q[..., 1] - p[..., 1] * q[..., 2]) * _TURN
+    result = np.empty((len(left), 3, 2, 9))
+    np.multiply(p[..., 0], q[..., 0], out=result[:, 0])
+    result[:, 1] = p[..., 1] * q[..., 1] + p[..., 2] * q[..., 2]
+    result[:, 2] = (p[..., 2] * q[..., 1] - p[..., 1] * q[..., 2]) * _TURN
     return result
 
 
@@ -74,7 +74,7 @@ def critical_angles(coefficients: Array, bounds: Limits) -> Array:
     """Sorted angles (m, 24) in [-pi, pi) at which a joint may meet a limit; -pi stands for each root that is
     not there.
     """
-    equations = coefficients[..., :5] @ bounds.equations
+    equations = coefficients.transpose(0, 2, 1, 3)[..., :5] @ bounds.equations
     constant = equations[:, :, 0] + bounds.constants
     cosine, sine = equations[:, :, 1], equations[:, :, 2]
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -94,13 +94,12 @@ def wrapped(angle: Array) -> Array:
 def joint_angles(coefficients: Array, swivel_angle: Array, flips: Array, bounds: Limits) -> Array:
     """Joint angles (n, ..., 2, f, 3) at swivel angles (n, ...) of shoulder and wrist, one row for each flip.
 
-    coefficients: (n, 2, 3, 9) as `entries` gives them. flips: broadcast to (..., 2, f), the sign of sin(q2 +
+    coefficients: (n, ..., 3, 2, 9) as `entries` gives them. flips: broadcast to (..., 2, f), the sign of sin(q2 +
     offset). Each angle is the representative nearest to the middle of its limits.
     """
-    weights = np.ones((*swivel_angle.shape, 3))
-    np.cos(swivel_angle, out=weights[..., 1])
-    np.sin(swivel_angle, out=weights[..., 2])
-    values = (weights[..., None, None, :] @ coefficients)[..., 0, :]
+    values = np.cos(swivel_angle)[..., None, None] * coefficients[..., 1, :, :]
+    values += np.sin(swivel_angle)[..., None, None] * coefficients[..., 2, :, :]
+    values += coefficients[..., 0, :, :]
     m22, m02, m12, _, _, m00, m01, m10, m11 = (values[..., None, k] for k in range(9))
     size = np.sqrt(m02 * m02 + m12 * m12)
     result = np.empty((*values.shape[:-1], flips.shape[-1], 3))
