@@ -1,7 +1,8 @@
 """From goals to a timed plan: the entry to motion planning.
 
-The goal sequence is cut at its fixed anchors; between them configurations are chosen together (`sequence/group.py`), then every
-path is put on a clock (`sequence/assemble.py`). Everything is a pure function of the arguments: searches stop on counts.
+The goal sequence is cut at its fixed anchors; between them configurations are chosen together
+(`sequence/group.py`), then every path is put on a clock (`sequence/assemble.py`). Everything is a pure
+function of the arguments: searches stop on counts.
 """
 
 from __future__ import annotations
@@ -11,10 +12,11 @@ from dataclasses import dataclass
 
 from xei_lang.diagnostics import Diagnostic, Diagnostics
 from xei_lang.ir.goals import MotionGoal, MotionGoalGraph
+from xei_lang.ir.skill_plan import Side
 from xei_lang.ir.timed import TimedGoal, TimedPlan
 from xei_lang.ir.world import World
 from xei_lang.motion.collision import collision_scene
-from xei_lang.motion.kinematics import arm_solver
+from xei_lang.motion.kinematics import Solver, arm_solver
 from xei_lang.motion.paths.free import PathBlocked
 from xei_lang.motion.robot import Robot, load_robot
 from xei_lang.motion.sequence.ahead import look_ahead
@@ -51,8 +53,8 @@ def plan_motion(
 ) -> tuple[TimedPlan | None, Diagnostics]:
     """Plan and time every goal of the graph, starting from the world's robot state.
 
-    Returns the plan, or None and what stands in its way, with the goal's place in the protocol. Equal arguments give equal
-    plans, to the byte.
+    Returns the plan, or None and what stands in its way, with the goal's place in the protocol. Equal
+    arguments give equal plans, to the byte.
     """
     context = _context(world, profile, description, seed)
     parts = split(graph)
@@ -80,7 +82,7 @@ def plan_motion(
 
 def _context(world: World, profile: Profile, description: RobotDescription, seed: int) -> Context:
     robot = load_robot(description.urdf_text, description.srdf_text)
-    solvers = {side: arm_solver(robot, side) for side in robot.arms}
+    solvers: dict[Side, Solver] = {side: arm_solver(robot, side) for side in robot.arms}
     bare = collision_scene(robot, padding_m=profile.calibration.clearance_m)
     return Context(robot, bare, solvers, planning_limits(robot, profile), world, profile, seed)
 

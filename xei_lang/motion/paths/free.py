@@ -17,10 +17,25 @@ _BLEND_SAMPLES = 12
 class FreeSpace(Protocol):
     """What a path may use: `lower`, `upper` and `speed` are arrays (n,) over the moving joints."""
 
-    joints: tuple[str, ...]
-    lower: Array
-    upper: Array
-    speed: Array
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """The names of the moving joints."""
+        ...
+
+    @property
+    def lower(self) -> Array:
+        """Lower ends of their ranges (n,)."""
+        ...
+
+    @property
+    def upper(self) -> Array:
+        """Upper ends of their ranges (n,)."""
+        ...
+
+    @property
+    def speed(self) -> Array:
+        """Their velocity limits (n,)."""
+        ...
 
     def is_free(self, q: Array) -> bool:
         """Whether the configuration (n,) touches nothing it may not touch."""

@@ -1,1 +1,1 @@
-"""From goals to configurations: which grasp, slide height and swivel each manipulation uses, chosen together."""
+"""From goals to configurations: grasp, slide height and swivel of all manipulations, chosen together."""

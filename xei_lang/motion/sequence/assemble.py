@@ -1,4 +1,4 @@
-"""Motions put on a clock one after another: TOPP-RA for every path, samples, and the margins that are left."""
+"""Motions put on a clock one after another: TOPP-RA for every path, and samples of it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Why motion planning failed, told at the step that asked for it: which object, which arm, what is in the way, what would help."""
+"""Why motion planning failed, told at the step that asked for it: which object, which arm, what is in the
+way, what would help.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +27,7 @@ _SHOWN_BODIES = 4
 
 
 def refuse(context: Context, graph: MotionGoalGraph) -> Diagnostic | None:
-    """What no planning could mend: a slide height or a joint target out of range, a path that has no start."""
+    """What no planning could mend: a height or a configuration out of range, a path that has no start."""
     before: MotionGoal | None = None
     for goal in graph.goals:
         problem = _refuse_goal(context, goal, before)
@@ -63,7 +65,9 @@ def _refuse_goal(context: Context, goal: MotionGoal, before: MotionGoal | None) 
 
 
 def _follows(before: MotionGoal | None, move: MoveTo) -> bool:
-    """Whether the goal before leaves the arm where a linear move may begin: a tool move, or what the hand does after one."""
+    """Whether the goal before leaves the arm where a linear move may begin: a tool move, or what the hand
+    does after one.
+    """
     if before is None or not isinstance(move.target, ToolTarget):
         return False
     action = before.action
@@ -110,7 +114,10 @@ def blame_path(context: Context, goal: MotionGoal, blocked: PathBlocked) -> Diag
         f"the way of {_who(goal)} is blocked: `{first}` would touch `{second}`",
         goal.span,
         f"no free path to {_whither(goal)}",
-        notes=(where, "bodies touch where the goal does not allow it, measured on the profile's collision shapes"),
+        notes=(
+            where,
+            "bodies touch where the goal does not allow it, measured on the profile's collision shapes",
+        ),
         help=_path_help(context, blocked.bodies),
     )
 
@@ -140,7 +147,10 @@ def _unreachable(context: Context, failure: Unplaced, census: Census) -> Diagnos
     reach = nearest_reach(context, failure.rehearsal)
     notes = [_counted(census)]
     if reach.shortfall_m > 0.0:
-        notes.append(f"the nearest grasp is {_mm(reach.shortfall_m)} out of reach, with the slide at {_mm(reach.slide_m)}")
+        notes.append(
+            f"the nearest grasp is {_mm(reach.shortfall_m)} out of reach,"
+            f" with the slide at {_mm(reach.slide_m)}"
+        )
     else:
         notes.append("the place is near enough, but every posture of the arm passes a joint limit")
     return Diagnostic(
@@ -164,7 +174,8 @@ def _crowded(failure: Unplaced, census: Census) -> Diagnostic:
         "no grasp is free of contact on the whole way in and out",
         notes=(
             _counted(census),
-            "a grasp must be in reach and free of contact before, at and after the place, all at one slide height",
+            "a grasp must be in reach and free of contact on the way in, at the place and on the way out,"
+            " at one slide height",
         ),
         help=_room_help(chain, census),
     )
@@ -174,8 +185,9 @@ def _room_help(chain: Chain, census: Census) -> tuple[str, ...]:
     if not census.neighbours:
         return ()
     name = census.neighbours[0]
-    verb = "a slot farther from" if chain.detach is not None else "the object after moving"
-    return (f"use {verb} `{name}`, or handle `{name}` first",)
+    if chain.detach is not None:
+        return (f"choose a place farther from `{name}`, or move `{name}` away first",)
+    return (f"move `{name}` away first",)
 
 
 def _counted(census: Census) -> str:
@@ -184,7 +196,9 @@ def _counted(census: Census) -> str:
         parts.append(f"{census.out_of_reach} {_are(census.out_of_reach)} out of reach")
     if census.past_limits:
         parts.append(f"{census.past_limits} would pass a joint limit")
-    parts.extend(f"{count} touch `{name}`" if count > 1 else f"1 touches `{name}`" for name, count in census.bodies)
+    parts.extend(
+        f"{count} touch `{name}`" if count > 1 else f"1 touches `{name}`" for name, count in census.bodies
+    )
     if census.off_line:
         parts.append(f"{census.off_line} leave a joint's range on the straight line")
     if not parts:

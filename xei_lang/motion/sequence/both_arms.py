@@ -1,7 +1,8 @@
-"""A move of both arms to a named configuration: together on the straight line, else found one arm after the other.
+"""A move of both arms to a named configuration: together on the straight line, else found one arm after the
+other.
 
-Searching seven joints twice takes a fraction of searching fourteen. The two finds make one polyline, whose shortcuts let the
-arms move together again wherever that is free.
+Searching seven joints twice takes a fraction of searching fourteen. The two finds make one polyline, whose
+shortcuts let the arms move together again wherever that is free.
 """
 
 from __future__ import annotations
@@ -21,13 +22,23 @@ _CHECKS_PER_ARM = 3000
 
 
 def plan_joints(
-    context: Context, before: Snapshot, joints: tuple[str, ...], q_goal: Array, allowed: tuple[Pair, ...], seed: int
+    context: Context,
+    before: Snapshot,
+    joints: tuple[str, ...],
+    q_goal: Array,
+    allowed: tuple[Pair, ...],
+    seed: int,
 ) -> FreePath | PathBlocked:
-    """A free path of any joints to `q_goal` (n,); where several arms move and the straight line is blocked, arm by arm first."""
+    """A free path of any joints to `q_goal` (n,); where several arms move and the straight line is blocked,
+    arm by arm first.
+    """
     space = space_for(context, before, joints, allowed)
     columns = [context.robot.joint_names.index(joint) for joint in joints]
     q_start = before.q[columns]
-    arms = [[joints.index(name) for name in arm.joint_names if name in joints] for arm in context.robot.arms.values()]
+    arms = [
+        [joints.index(name) for name in arm.joint_names if name in joints]
+        for arm in context.robot.arms.values()
+    ]
     arms = [arm for arm in arms if arm]
     if len(arms) > 1 and space.contact(q_start) is None and space.contact(q_goal) is None:
         if space.edge_is_free(q_start, q_goal):
@@ -39,8 +50,12 @@ def plan_joints(
     return plan_free_path(space, q_start, q_goal, seed)
 
 
-def _one_by_one(space: SceneSpace, q_start: Array, q_goal: Array, order: list[list[int]], seed: int) -> FreePath | None:
-    """The arms' paths in this order as one polyline, shortened and rounded; joints of no arm move with the last."""
+def _one_by_one(
+    space: SceneSpace, q_start: Array, q_goal: Array, order: list[list[int]], seed: int
+) -> FreePath | None:
+    """The arms' paths in this order as one polyline, shortened and rounded; joints of no arm move with the
+    last.
+    """
     from xei_lang.motion.paths.rrt_connect import rrt_connect
 
     now, waypoints = q_start, [q_start[None]]
@@ -51,7 +66,11 @@ def _one_by_one(space: SceneSpace, q_start: Array, q_goal: Array, order: list[li
         part = space.narrowed(now, moving)
         found: Array | None = np.stack([now[moving], goal[moving]])
         if not part.edge_is_free(now[moving], goal[moving]):
-            found = rrt_connect(part, now[moving], goal[moving], seed, _CHECKS_PER_ARM) if part.is_free(goal[moving]) else None
+            found = (
+                rrt_connect(part, now[moving], goal[moving], seed, _CHECKS_PER_ARM)
+                if part.is_free(goal[moving])
+                else None
+            )
         if found is None:
             return None
         steps = np.tile(now, (len(found), 1))

@@ -1,4 +1,6 @@
-"""Why each grasp of a chain fell, counted: made only once a search has failed, so that the message can say it."""
+"""Why each grasp of a chain fell, counted: made only once a search has failed, so that the message can say
+it.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +8,7 @@ from collections import Counter
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from xei_lang.motion.sequence.context import Context
 from xei_lang.motion.sequence.group import Unplaced
@@ -14,15 +17,18 @@ from xei_lang.motion.sequence.reach import chain_poses, tried_heights
 from xei_lang.motion.sequence.rehearse import Rehearsal
 from xei_lang.motion.sequence.space import target_contact
 
+Array = NDArray[np.float64]
+
 _CONFIGURATIONS_ASKED = 12
 
 
 @dataclass(frozen=True, slots=True)
 class Census:
-    """How many of a chain's grasps fell for which reason; `bodies` are what those in reach touch, most often first.
+    """How many of a chain's grasps fell for which reason; `bodies` are what those in reach touch, most often
+    first.
 
-    Each grasp is counted once, by how far it came: reach, joint limits, contact, straight line. `neighbours` are the
-    movable objects among the bodies.
+    Each grasp is counted once, by how far it came: reach, joint limits, contact, straight line. `neighbours`
+    are the movable objects among the bodies.
     """
 
     total: int
@@ -42,10 +48,14 @@ def take_census(context: Context, failure: Unplaced) -> Census:
     """Go through all grasps of the chain that failed."""
     rehearsal = failure.rehearsal
     chain, poses, heights = rehearsal.chain, chain_poses(rehearsal), tried_heights(context, rehearsal)
-    members = np.arange(poses.shape[1])
+    members = np.arange(len(chain.family.members), dtype=np.intp)
     rows = feasible(context.solvers[chain.arm], poses, members, heights, THOROUGH.configurations_per_pose)
     reached = set(rows.member.tolist())
-    far = [member for member in members.tolist() if member not in reached and _out_of_reach(context, rehearsal, member)]
+    far = [
+        member
+        for member in members.tolist()
+        if member not in reached and _out_of_reach(context, rehearsal, member)
+    ]
     touched: Counter[str] = Counter()
     for member in sorted(reached):
         index = np.flatnonzero(rows.member == member)
@@ -53,8 +63,12 @@ def take_census(context: Context, failure: Unplaced) -> Census:
         touched[name] += 1
     off_line = touched.pop("", 0)
     bodies = tuple(sorted(touched.items(), key=lambda item: (-item[1], item[0])))
-    neighbours = tuple(name for name, _ in bodies if (item := context.world.find(name)) is not None and item.movable)
-    return Census(len(members), len(far), len(members) - len(reached) - len(far), bodies, off_line, neighbours)
+    neighbours = tuple(
+        name for name, _ in bodies if (item := context.world.find(name)) is not None and item.movable
+    )
+    return Census(
+        len(members), len(far), len(members) - len(reached) - len(far), bodies, off_line, neighbours
+    )
 
 
 def _out_of_reach(context: Context, rehearsal: Rehearsal, member: int) -> bool:
@@ -65,8 +79,10 @@ def _out_of_reach(context: Context, rehearsal: Rehearsal, member: int) -> bool:
     )
 
 
-def _touched(context: Context, failure: Unplaced, q: np.ndarray, member: int) -> str:
-    """The body that a member's configurations (n, targets, 8) meet most often; empty where only its straight line fails."""
+def _touched(context: Context, failure: Unplaced, q: Array, member: int) -> str:
+    """The body that a member's configurations (n, targets, 8) meet most often; empty where only its straight
+    line fails.
+    """
     rehearsal, names = failure.rehearsal, Counter[str]()
     picked = np.linspace(0, len(q) - 1, min(len(q), _CONFIGURATIONS_ASKED)).round().astype(int)
     for row in picked:
@@ -74,16 +90,20 @@ def _touched(context: Context, failure: Unplaced, q: np.ndarray, member: int) ->
         if pair is not None:
             names[culprit(context, rehearsal, pair)] += 1
     for touch in failure.struck:
-        if touch.member == member and touch.bodies:
+        if touch.member == member and touch.bodies is not None:
             names[culprit(context, rehearsal, touch.bodies)] += 1
     return min(names, key=lambda name: (-names[name], name)) if names else ""
 
 
 def culprit(context: Context, rehearsal: Rehearsal, pair: tuple[str, str]) -> str:
-    """Of two bodies that touch, the one to name: another object rather than what is handled, an object rather than a link."""
+    """Of two bodies that touch, the one to name: another object rather than what is handled, an object rather
+    than a link.
+    """
     chain = rehearsal.chain
     own = {action.object for action in (chain.attach, chain.detach) if action is not None}
     objects = [name for name in pair if context.world.find(name) is not None and name not in own]
     if objects:
         return objects[0]
-    return next((name for name in pair if name not in own and not name.startswith(f"openarm_{chain.arm}")), pair[1])
+    return next(
+        (name for name in pair if name not in own and not name.startswith(f"openarm_{chain.arm}")), pair[1]
+    )

@@ -1,7 +1,9 @@
-"""The cheapest run through layers of candidates, by dynamic programming (Bellman 1957); ties go to the lower index.
+"""The cheapest run through layers of candidates, by dynamic programming (Bellman 1957); ties go to the lower
+index.
 
-Where a run needs checks that are dear (a whole linear motion against the scene, a path between two configurations),
-the caller removes what failed and asks again: the answer is then the cheapest run among those that hold.
+Where a run needs checks that are dear (a whole linear motion against the scene, a path between two
+configurations), the caller removes what failed and asks again: the answer is then the cheapest run among
+those that hold.
 """
 
 from __future__ import annotations
@@ -17,17 +19,19 @@ Bools = NDArray[np.bool_]
 
 @dataclass(frozen=True, slots=True)
 class Speeds:
-    """Velocity and acceleration limits (n,) of the joints that move in a transit: rad/s, rad/s2 (m/s, m/s2)."""
+    """Velocity and acceleration limits (n,) of joints: rad/s, rad/s2 (m/s, m/s2)."""
 
     velocity: Array
     acceleration: Array
 
     def scaled(self, fraction: float) -> Speeds:
-        """The limits of a move at a fraction of full speed: time stretched, so accelerations by its square."""
+        """The limits at a fraction of full speed: time is stretched, so accelerations go by its square."""
         return Speeds(self.velocity * fraction, self.acceleration * fraction**2)
 
     def travel_s(self, q_from: Array, q_to: Array) -> Array:
-        """Lower bound (a, b) of the rest-to-rest time between configurations (a, n) and (b, n): the slowest joint's."""
+        """Lower bound (a, b) of the rest-to-rest time between configurations (a, n) and (b, n): the slowest
+        joint's.
+        """
         return self.of_distance(np.abs(q_to[None, :, :] - q_from[:, None, :]))
 
     def of_distance(self, distance: Array) -> Array:
@@ -40,7 +44,9 @@ class Speeds:
 
 @dataclass(frozen=True, slots=True)
 class Stage:
-    """One layer: where its candidates are entered and left (n, joints), what each costs in seconds, which still hold."""
+    """One layer: where its candidates are entered and left (n, joints), what each costs in seconds, which
+    still hold.
+    """
 
     entry: Array
     exit: Array

@@ -1,4 +1,6 @@
-"""What every part of the sequence planner reads and none changes: robot, solvers, limits, the deployment's facts."""
+"""What every part of the sequence planner reads and none changes: robot, solvers, limits, the deployment's
+facts.
+"""
 
 from __future__ import annotations
 
@@ -23,8 +25,8 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Context:
-    """The unchanging side of a planning problem. `limits` maps a joint's name to its planning limits; `bare` is the collision
-    scene of the robot alone; `scenes` remembers scenes by their content (`space.py`).
+    """The unchanging side of a planning problem. `limits` maps a joint's name to its planning limits; `bare`
+    is the collision scene of the robot alone; `scenes` remembers scenes by their content (`space.py`).
     """
 
     robot: Robot
@@ -37,7 +39,7 @@ class Context:
     scenes: dict[object, CollisionScene] = field(default_factory=dict[object, CollisionScene], repr=False)
 
     def arm_joints(self, side: Side) -> tuple[str, ...]:
-        """The slide and the joints of an arm: what a transit moves, in this order everywhere in this package."""
+        """The slide and the joints of an arm, in this order everywhere in this package."""
         return (self.slide_joint, *self.robot.arm(side).joint_names)
 
     def arm_indices(self, side: Side) -> list[int]:
@@ -46,16 +48,20 @@ class Context:
 
     @property
     def slide_joint(self) -> str:
+        """The name of the slide's joint."""
         return self.robot.joint_names[self.robot.slide_index]
 
     @property
     def slide_limits(self) -> JointLimit:
+        """Planning limits of the slide, m."""
         return self.limits[self.slide_joint]
 
     def limits_of(self, joints: tuple[str, ...]) -> tuple[JointLimit, ...]:
+        """Planning limits of joints, in their order."""
         return tuple(self.limits[joint] for joint in joints)
 
     def speeds(self, joints: tuple[str, ...]) -> Speeds:
+        """Velocity and acceleration limits of joints, in their order."""
         rows = self.limits_of(joints)
         return Speeds(np.array([row.velocity for row in rows]), np.array([row.acceleration for row in rows]))
 

@@ -1,4 +1,6 @@
-"""A candidate carried out: the motions of its chain after the free move, each with the scene that it happens in."""
+"""A candidate carried out: the motions of its chain after the free move, each with the scene that it happens
+in.
+"""
 
 from __future__ import annotations
 
@@ -110,7 +112,9 @@ def take(chain: Chain, action: Attach, target: int, member: int, before: Snapsho
 
 
 def as_held(chain: Chain, snapshot: Snapshot, member: int) -> Snapshot:
-    """The snapshot with the arm's object held by the member that is shown: what a turn of a round object amounts to."""
+    """The snapshot with the arm's object held by the member that is shown: what a turn of a round object
+    amounts to.
+    """
     held = snapshot.held.get(chain.arm)
     if held is None or held.member == member:
         return snapshot

@@ -17,7 +17,9 @@ from xei_lang.motion.sequence.motions import Motion
 from xei_lang.motion.sequence.snapshot import Snapshot
 
 PERCEIVE_S = 1.0
-"""Nominal time to ground a frame again: the schedule must hold a place for it; the run waits for the real one."""
+"""Nominal time to ground a frame again: the schedule must hold a place for it; the run waits for the real
+one.
+"""
 
 
 def plan_fixed(context: Context, goal: MotionGoal, before: Snapshot) -> Motion | PathBlocked:
@@ -32,12 +34,16 @@ def plan_fixed(context: Context, goal: MotionGoal, before: Snapshot) -> Motion |
         return grip(context, goal, action, before)
     if isinstance(action, NavToPose):
         after = replace(before, T_world_base=action.T_world_base)
-        return Motion(goal, before, after, duration_s=_drive_s(context, before.T_world_base, action.T_world_base))
-    if isinstance(action, Wait):
-        return still(goal, before, action.duration_s)
-    if isinstance(action, Perceive):
-        return still(goal, before, max(PERCEIVE_S, goal.min_duration_s))
-    return still(goal, before)
+        return Motion(
+            goal, before, after, duration_s=_drive_s(context, before.T_world_base, action.T_world_base)
+        )
+    return still(goal, before, _still_s(goal))
+
+
+def _still_s(goal: MotionGoal) -> float:
+    if isinstance(goal.action, Wait):
+        return goal.action.duration_s
+    return max(PERCEIVE_S, goal.min_duration_s) if isinstance(goal.action, Perceive) else goal.min_duration_s
 
 
 def _to_joints(
@@ -57,7 +63,9 @@ def _to_joints(
 
 
 def _drive_s(context: Context, T_from: Pose, T_to: Pose) -> float:
-    """Straight drive at the base's speed and a turn in place at its turning rate, one after the other, seconds."""
+    """Straight drive at the base's speed and a turn in place at its turning rate, one after the other,
+    seconds.
+    """
     way = T_from.inverse() @ T_to
     distance = math.hypot(way.position_m[0], way.position_m[1])
     turn = 2.0 * math.atan2(abs(way.quaternion[2]), way.quaternion[3])

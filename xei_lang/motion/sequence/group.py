@@ -1,7 +1,9 @@
-"""The chains of a group chosen together: candidates, dynamic programme, and then the checks that are dear, cheapest run first.
+"""The chains of a group chosen together: candidates, dynamic programme, and then the checks that are dear,
+cheapest run first.
 
-A candidate is checked along its whole linear motions only once a run asks for it, a transit is planned only between two candidates
-that hold. What fails is struck out and the next cheapest run is taken, so that the result is the cheapest run whose motions all hold.
+A candidate is checked along its whole linear motions only once a run asks for it, a transit is planned only
+between two candidates that hold. What fails is struck out and the next cheapest run is taken, so that the
+result is the cheapest run whose motions all hold.
 """
 
 from __future__ import annotations
@@ -33,8 +35,9 @@ MAX_BLOCKED_TRANSITS = 12
 
 @dataclass(frozen=True, slots=True)
 class Ahead:
-    """What comes after a group: the configuration (7,) of the arm that is named next, if one is, and the chain of a later
-    group in which the hand still holds what it took in this one: the grasp must serve there too.
+    """What comes after a group: the configuration (7,) of the arm that is named next, if one is, and the
+    chain of a later group in which the hand still holds what it took in this one: the grasp must serve there
+    too.
     """
 
     configuration: Array | None = None
@@ -71,9 +74,7 @@ class _Search:
     sound: set[tuple[int, int]] = field(default_factory=set[tuple[int, int]])
 
 
-def plan_group(
-    context: Context, group: Group, start: Snapshot, ahead: Ahead
-) -> tuple[Motion, ...] | Failure:
+def plan_group(context: Context, group: Group, start: Snapshot, ahead: Ahead) -> tuple[Motion, ...] | Failure:
     """Motions of all goals of a group from `start`, chosen with an eye to what comes after it."""
     rehearsals = rehearse_group(context, group, start)
     found: tuple[Motion, ...] | Failure = Unplaced(rehearsals[0], ())
@@ -85,7 +86,12 @@ def plan_group(
 
 
 def _attempt(
-    context: Context, group: Group, rehearsals: tuple[Rehearsal, ...], start: Snapshot, ahead: Ahead, effort: Effort
+    context: Context,
+    group: Group,
+    rehearsals: tuple[Rehearsal, ...],
+    start: Snapshot,
+    ahead: Ahead,
+    effort: Effort,
 ) -> tuple[Motion, ...] | Failure:
     heights = slide_heights(context, float(start.q[context.robot.slide_index]), effort)
     own = len(rehearsals)
@@ -94,11 +100,15 @@ def _attempt(
     for rehearsal in rehearsals:
         chain = rehearsal.chain
         tried = heights if chain.slide_free else heights[:1]
-        layer = enumerate_layer(context, chain, tried, _allowed(rehearsal), target_check(context, rehearsal), effort)
+        layer = enumerate_layer(
+            context, chain, tried, _allowed(rehearsal), target_check(context, rehearsal), effort
+        )
         if len(layer) == 0:
             return Unplaced(rehearsal, ())
         layers.append(layer)
-    search = _Search(rehearsals, tuple(layers), [np.ones(len(layer), dtype=bool) for layer in layers], [[] for _ in layers])
+    search = _Search(
+        rehearsals, tuple(layers), [np.ones(len(layer), dtype=bool) for layer in layers], [[] for _ in layers]
+    )
     return _search(context, group, search, start, own, ahead)
 
 
@@ -138,7 +148,9 @@ def _stages(now: Array, search: _Search, own: int, homeward: Array) -> tuple[Sta
 
 
 def _transitions(now: Array, search: _Search, own: int, speeds: Speeds) -> tuple[Array, ...]:
-    """Travel times between the group's stages; into a chain that is only looked ahead to, whether it may follow at all."""
+    """Travel times between the group's stages; into a chain that is only looked ahead to, whether it may
+    follow at all.
+    """
     stages = _stages(now, search, own, np.zeros(1))
     costs: list[Array] = []
     for index, mask in enumerate((None, *_joined(search))):
@@ -162,7 +174,9 @@ def _allowed(rehearsal: Rehearsal) -> Bools:
 def _joined(search: _Search) -> tuple[Bools | None, ...]:
     """Which candidate may follow which: while an object is held, only those of the same grasp."""
     masks: list[Bools | None] = []
-    for before, after, rehearsal in zip(search.layers, search.layers[1:], search.rehearsals[1:], strict=False):
+    for before, after, rehearsal in zip(
+        search.layers, search.layers[1:], search.rehearsals[1:], strict=False
+    ):
         chain = rehearsal.chain
         if chain.arm not in rehearsal.before.held:
             masks.append(None)
@@ -176,7 +190,9 @@ def _joined(search: _Search) -> tuple[Bools | None, ...]:
 def _all_sound(context: Context, search: _Search, chosen: tuple[int, ...]) -> bool:
     """Check the linear motions of every chosen candidate; strike out those that touch something."""
     good = True
-    for stage, (rehearsal, layer, index) in enumerate(zip(search.rehearsals, search.layers, chosen, strict=True)):
+    for stage, (rehearsal, layer, index) in enumerate(
+        zip(search.rehearsals, search.layers, chosen, strict=True)
+    ):
         if (stage, index) in search.sound:
             continue
         touch = _first_touch(context, rehearsal, layer, index)
@@ -195,7 +211,7 @@ def _first_touch(context: Context, rehearsal: Rehearsal, layer: Layer, index: in
     start = before.moved(context.lift(before.q, chain.arm, layer.q[index, 0]))
     motions = carry_out(context, layer, index, start)
     if motions is None:
-        return Touch(int(layer.member[index]), ())
+        return Touch(int(layer.member[index]), None)
     for motion in motions:
         bodies = motion_contact(context, motion)
         if bodies is not None:

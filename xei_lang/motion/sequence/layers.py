@@ -1,7 +1,8 @@
-"""Candidates of one chain: grasp, slide height, swivel and branch, with the arm's configuration at every target.
+"""Candidates of one chain: grasp, slide height, swivel and branch, with the arm's configuration at every
+target.
 
-Grasps are tried best first, a round of them at all slide heights at once, until each height has enough: a plain scene costs
-little, a crowded one is searched to the end.
+Grasps are tried best first, a round of them at all slide heights at once, until each height has enough: a
+plain scene costs little, a crowded one is searched to the end.
 """
 
 from __future__ import annotations
@@ -20,7 +21,8 @@ from xei_lang.motion.sequence.sections import Chain
 
 Array = NDArray[np.float64]
 CheckTarget = Callable[[int, Array], Bools]
-"""For the index of a target and configurations (n, 8) of slide and arm: which of them touch something (n,)."""
+"""For the index of a target and configurations (n, 8) of slide and arm: which of them touch something (n,).
+"""
 
 MEMBERS_PER_ROUND = 16
 
@@ -31,7 +33,7 @@ _FACING_COST = 1.0
 
 @dataclass(frozen=True, slots=True)
 class Effort:
-    """How widely to look: slide heights over the stroke, grasps wanted at each, configurations of each grasp."""
+    """How widely to look: slide heights, grasps wanted at each, configurations of each grasp."""
 
     heights: int
     poses_per_height: int
@@ -46,8 +48,8 @@ THOROUGH = Effort(13, 10_000, 20)
 class Layer:
     """Candidates (n,) of a chain. `q` (n, targets, 8) is slide and arm at each tool target, within limits.
 
-    `poses` (targets, members, 4, 4) are the tool poses; `member` is the one shown at this chain and `orbit` names members
-    that are turns of each other. `cost` is in seconds.
+    `poses` (targets, members, 4, 4) are the tool poses; `member` is the one shown at this chain and `orbit`
+    names members that are turns of each other. `cost` is in seconds.
     """
 
     chain: Chain
@@ -68,7 +70,9 @@ class Layer:
 
 
 def slide_heights(context: Context, slide_m: float, effort: Effort) -> Array:
-    """Heights to try in metres: the present one first, then the others of a grid over the stroke, nearest first."""
+    """Heights to try in metres: the present one first, then the others of a grid over the stroke, nearest
+    first.
+    """
     limits = context.slide_limits
     grid = np.linspace(limits.lower, limits.upper, effort.heights)
     others = grid[np.abs(grid - slide_m) > 0.25 * (grid[1] - grid[0])]
@@ -98,8 +102,12 @@ def enumerate_layer(
 
 
 def _ranked(context: Context, chain: Chain, poses: Array, allowed: Bools) -> NDArray[np.intp]:
-    """Members in the order in which they are worth trying: cheap ones first, and those whose hand comes from the robot's side."""
-    shoulder = context.robot.T_base_frame(np.zeros(context.robot.nq), context.robot.arm(chain.arm).shoulder_frame)
+    """Members in the order in which they are worth trying: cheap ones first, and those whose hand comes from
+    the robot's side.
+    """
+    shoulder = context.robot.T_base_frame(
+        np.zeros(context.robot.nq), context.robot.arm(chain.arm).shoulder_frame
+    )
     key = poses[min(1, len(poses) - 1)]
     away = key[:, :2, 3] - shoulder[:2, 3]
     away /= np.maximum(np.linalg.norm(away, axis=1, keepdims=True), 1e-9)
@@ -111,7 +119,7 @@ def _ranked(context: Context, chain: Chain, poses: Array, allowed: Bools) -> NDA
 
 @dataclass(frozen=True, slots=True)
 class Rows:
-    """Configurations (n,) of a chain: `q` (n, targets, 8) with the member, swivel angle and branch of each."""
+    """Configurations of a chain: `q` (n, targets, 8), and member, swivel angle and branch (n,) of each."""
 
     q: Array
     member: Ints
@@ -122,6 +130,7 @@ class Rows:
         return len(self.member)
 
     def kept(self, index: NDArray[np.intp]) -> Rows:
+        """Only the rows of these indices."""
         return Rows(self.q[index], self.member[index], self.swivel_angle[index], self.branch[index])
 
 
@@ -140,8 +149,8 @@ def _joined(parts: list[Rows]) -> Rows:
 
 
 def feasible(solver: Solver, poses: Array, members: NDArray[np.intp], heights: Array, most: int) -> Rows:
-    """At most `most` configurations of each member and height at the grasp itself, as far as the same swivel and branch
-    serve at all targets; `poses` (targets, members, 4, 4). Contacts are not looked at.
+    """At most `most` configurations of each member and height at the grasp itself, as far as the same swivel
+    and branch serve at all targets; `poses` (targets, members, 4, 4). Contacts are not looked at.
     """
     key = min(1, len(poses) - 1)
     pair_member = np.tile(members, len(heights)).astype(np.int64)
@@ -162,7 +171,9 @@ def _spread(count: int, most: int) -> NDArray[np.intp]:
 
 
 def carried(solver: Solver, poses: Array, height: Array, swivel: Array, branch: Ints) -> tuple[Array, Bools]:
-    """Slide and arm (n, t, 8) at poses (n, t, 4, 4) with one height, swivel and branch (n,) a row; a mask (n, t) of what is valid."""
+    """Slide and arm (n, t, 8) at poses (n, t, 4, 4) with one height, swivel and branch (n,) a row; a mask (n,
+    t) of what is valid.
+    """
     rows, targets = poses.shape[:2]
     q = np.zeros((rows, targets, 8))
     q[:, :, 0] = height[:, None]
@@ -170,7 +181,10 @@ def carried(solver: Solver, poses: Array, height: Array, swivel: Array, branch: 
     for code in np.unique(branch):
         index = np.flatnonzero(branch == code)
         arm, good = solver.at_many(
-            poses[index].reshape(-1, 4, 4), np.repeat(height[index], targets), np.repeat(swivel[index], targets), int(code)
+            poses[index].reshape(-1, 4, 4),
+            np.repeat(height[index], targets),
+            np.repeat(swivel[index], targets),
+            int(code),
         )
         q[index, :, 1:] = arm.reshape(len(index), targets, 7)
         valid[index] = good.reshape(len(index), targets)

@@ -17,10 +17,14 @@ Array = NDArray[np.float64]
 _TORQUE_STRIDE = 5
 
 
-def margins(context: Context, motions: tuple[Motion, ...], goals: tuple[TimedGoal, ...]) -> tuple[Margin, ...]:
-    """The largest share used of velocity, acceleration and torque limits, and the smallest distance to an end of range.
+def margins(
+    context: Context, motions: tuple[Motion, ...], goals: tuple[TimedGoal, ...]
+) -> tuple[Margin, ...]:
+    """The largest share used of velocity, acceleration and torque limits, and the smallest distance to an end
+    of range.
 
-    Ratios are of the planning limits; the distance is in rad or m. Taken from the samples, torque from every fifth.
+    Ratios are of the planning limits; the distance is in rad or m. Taken from the samples, torque from every
+    fifth.
     """
     worst: dict[str, Margin] = {}
     for motion, goal in zip(motions, goals, strict=True):

@@ -39,7 +39,8 @@ def tool_poses(target: ToolTarget, family: Family) -> Array:
 def orbits(family: Family) -> Ints:
     """A number (members,) that is equal for members that are one grasp turned about the reference's z axis.
 
-    A tool pose (R, p) turned about z keeps `R.T @ z` and `R.T @ p`, and nothing else is kept: these are compared.
+    A tool pose (R, p) turned about z keeps `R.T @ z` and `R.T @ p`, and nothing else is kept: these are
+    compared.
     """
     members = np.array([member.T_reference_tool.matrix() for member in family.members])
     kept = np.concatenate(
@@ -50,13 +51,15 @@ def orbits(family: Family) -> Ints:
 
 
 def same_grasp(family: Family, member: int, turned: bool) -> Bools:
-    """Which members (m,) show the grasp `member`: itself alone, or with turns of the reference its whole orbit."""
+    """Which members (m,) show the grasp `member`: itself alone, or with turns of the reference its whole
+    orbit.
+    """
     names = orbits(family) if turned else np.arange(len(family.members))
     return names == names[member]
 
 
 def interpolate(T_start: Array, T_end: Array, step_m: float, step_rad: float) -> Array:
-    """Poses (m, 4, 4) from start to end along a straight line, turning at constant rate, both ends included."""
+    """Poses (m, 4, 4) on a straight line, turning at constant rate, both ends included."""
     rotation = T_start[:3, :3].T @ T_end[:3, :3]
     angle = math.acos(min(1.0, max(-1.0, (float(np.trace(rotation)) - 1.0) / 2.0)))
     distance = float(np.linalg.norm(T_end[:3, 3] - T_start[:3, 3]))
@@ -72,7 +75,9 @@ def interpolate(T_start: Array, T_end: Array, step_m: float, step_rad: float) ->
 
 def _rotations(rotation: Array, angle: float, share: Array) -> Array:
     """Rotations (m, 3, 3) about the axis of `rotation` by shares of its angle (Rodrigues)."""
-    skew = (rotation - rotation.T) / (2.0 * math.sin(angle)) if math.pi - angle > 1e-6 else _half_turn(rotation)
+    skew = (
+        (rotation - rotation.T) / (2.0 * math.sin(angle)) if math.pi - angle > 1e-6 else _half_turn(rotation)
+    )
     a = (share * angle)[:, None, None]
     return np.eye(3) + np.sin(a) * skew + (1.0 - np.cos(a)) * (skew @ skew)
 

@@ -1,4 +1,4 @@
-"""How far out of reach a chain is, and what would bring it into reach: another slide height, arm or station."""
+"""How far out of reach a chain is, and what would help: another slide height, arm or station."""
 
 from __future__ import annotations
 
@@ -18,7 +18,9 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Reach:
-    """The smallest distance by which a chain's targets lie outside the arm's reach, and the slide height of that."""
+    """The smallest distance by which a chain's targets lie outside the arm's reach, and the slide height of
+    that.
+    """
 
     shortfall_m: float
     slide_m: float
@@ -50,7 +52,9 @@ def nearest_reach(context: Context, rehearsal: Rehearsal) -> Reach:
 
 
 def reach_help(context: Context, rehearsal: Rehearsal) -> tuple[str, ...]:
-    """What would bring the chain into reach, by trying: another slide height, the other arm, each other station."""
+    """What would bring the chain into reach, by trying: another slide height, the other arm, each other
+    station.
+    """
     chain, poses = rehearsal.chain, chain_poses(rehearsal)
     heights = slide_heights(context, float(rehearsal.before.q[context.robot.slide_index]), THOROUGH)
     found: list[str] = []
@@ -61,7 +65,9 @@ def reach_help(context: Context, rehearsal: Rehearsal) -> tuple[str, ...]:
         if side != chain.arm and _lowest_feasible(context, side, poses, heights) is not None:
             found.append(f"the {side} arm reaches it: say `arm={side}`")
     found.extend(_stations(context, rehearsal, poses, heights))
-    return tuple(found) or ("move it nearer to the robot, or add a station from which it is in reach to the calibration profile",)
+    return tuple(found) or (
+        "move it nearer to the robot, or add a station from which it is in reach to the calibration profile",
+    )
 
 
 def _stations(context: Context, rehearsal: Rehearsal, poses: Array, heights: Array) -> list[str]:
@@ -73,12 +79,14 @@ def _stations(context: Context, rehearsal: Rehearsal, poses: Array, heights: Arr
             continue
         height = _lowest_feasible(context, rehearsal.chain.arm, T_new_old @ poses, heights)
         if height is not None:
-            found.append(f"it is in reach from `{station.name}`: drive there first (`nav_to(station={station.name})`)")
+            found.append(
+                f"it is in reach from `{station.name}`: drive there first (`nav_to(station={station.name})`)"
+            )
     return found
 
 
 def _lowest_feasible(context: Context, side: Side, poses: Array, heights: Array) -> float | None:
-    members = np.arange(poses.shape[1])
+    members = np.arange(poses.shape[1], dtype=np.intp)
     for height in sorted(heights.tolist()):
         if len(feasible(context.solvers[side], poses, members, np.array([height]), 20)) > 0:
             return height

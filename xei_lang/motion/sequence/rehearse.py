@@ -1,4 +1,4 @@
-"""A chain gone through before its grasp is chosen: where every object is when the arm stands at each target."""
+"""A chain gone through before its grasp is chosen: where every object is when the arm is at each target."""
 
 from __future__ import annotations
 
@@ -21,7 +21,9 @@ class Moment:
 
 @dataclass(frozen=True, slots=True)
 class Rehearsal:
-    """A chain between two snapshots that hold whatever is chosen; joints of the moving arm and grasps are not yet known."""
+    """A chain between two snapshots that hold whatever is chosen; joints of the moving arm and grasps are not
+    yet known.
+    """
 
     chain: Chain
     before: Snapshot

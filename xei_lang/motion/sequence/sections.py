@@ -1,8 +1,10 @@
-"""How a goal sequence falls into parts: groups of chains that are chosen together, and fixed goals between them.
+"""How a goal sequence falls into parts: groups of chains that are chosen together, and fixed goals between
+them.
 
-A *chain* is a free move of one arm to a family of tool poses with the linear moves and hand actions that follow it: it
-is carried out at one slide height, one swivel angle and one branch of the arm. A *group* is a run of chains of one arm
-between anchors (named configurations, drives, perceptions, slide moves, a change of arm).
+A *chain* is a free move of one arm to a family of tool poses with the linear moves and hand actions that
+follow it: it is carried out at one slide height, one swivel angle and one branch of the arm. A *group* is a
+run of chains of one arm between anchors (named configurations, drives, perceptions, slide moves, a change of
+arm).
 """
 
 from __future__ import annotations
@@ -39,6 +41,7 @@ class Chain:
 
     @property
     def head(self) -> MotionGoal:
+        """The free move that the chain begins with."""
         return self.goals[0]
 
     @property
@@ -71,6 +74,7 @@ class Group:
 
     @property
     def chains(self) -> tuple[Chain, ...]:
+        """The chains among the items, in order."""
         return tuple(item for item in self.items if isinstance(item, Chain))
 
 
@@ -98,9 +102,7 @@ def split(graph: MotionGoalGraph) -> tuple[Part, ...]:
     return (*parts, *_closed(run))
 
 
-def _chains(
-    goals: tuple[MotionGoal, ...], families: dict[str, Family]
-) -> tuple[Chain | MotionGoal, ...]:
+def _chains(goals: tuple[MotionGoal, ...], families: dict[str, Family]) -> tuple[Chain | MotionGoal, ...]:
     items: list[Chain | MotionGoal] = []
     index = 0
     while index < len(goals):
@@ -122,7 +124,9 @@ def _chain(goals: tuple[MotionGoal, ...], families: dict[str, Family]) -> Chain:
     targets = tuple(move.target for move in moves if isinstance(move.target, ToolTarget))
     arm = moves[0].arm
     assert arm is not None
-    return Chain(arm, families[targets[0].family], goals, targets, tuple(move.speed_fraction for move in moves))
+    return Chain(
+        arm, families[targets[0].family], goals, targets, tuple(move.speed_fraction for move in moves)
+    )
 
 
 def _is_head(goal: MotionGoal) -> bool:
@@ -132,9 +136,10 @@ def _is_head(goal: MotionGoal) -> bool:
 
 
 def _continues(goal: MotionGoal, head: MotionGoal) -> bool:
-    """Whether a goal belongs to the chain that `head` began: linear moves and hand actions of the same arm."""
+    """Whether a goal belongs to the chain of `head`: linear moves and hand actions of the same arm."""
     action, move = goal.action, head.action
-    assert isinstance(move, MoveTo) and isinstance(move.target, ToolTarget)
+    assert isinstance(move, MoveTo)
+    assert isinstance(move.target, ToolTarget)
     if isinstance(action, MoveTo):
         same = isinstance(action.target, ToolTarget) and action.target.family == move.target.family
         return same and action.arm == move.arm and action.path != "free"

@@ -23,7 +23,9 @@ UNCHOSEN = -1
 
 @dataclass(frozen=True, slots=True)
 class Held:
-    """An object in a hand by the grasp `member` of a family; `T_reference_object` places it in the family's reference."""
+    """An object in a hand by the grasp `member` of a family; `T_reference_object` places it in the family's
+    reference.
+    """
 
     object: str
     family: Family
@@ -40,8 +42,8 @@ class Held:
 class Snapshot:
     """The state between two goals.
 
-    `q` (nq,) is the configuration, `standing` maps each object that no hand holds to its pose in the root frame `world`,
-    `held` maps an arm to what it holds.
+    `q` (nq,) is the configuration, `standing` maps each object that no hand holds to its pose in the root
+    frame `world`, `held` maps an arm to what it holds.
     """
 
     q: Array

@@ -19,25 +19,36 @@ from xei_lang.motion.sequence.snapshot import UNCHOSEN, Snapshot
 
 Array = NDArray[np.float64]
 Pair = tuple[str, str]
+Carried = tuple[Side, str, Pose]
 
 
 @dataclass(frozen=True, slots=True)
 class Touch:
-    """A member whose motions fail: the two bodies that meet, or nothing where a straight line leaves a joint's range."""
+    """A member whose motions fail: the two bodies that meet, or nothing where a straight line leaves a
+    joint's range.
+    """
 
     member: int
-    bodies: tuple[str, ...]
+    bodies: Pair | None
 
 
-def scene_of(context: Context, snapshot: Snapshot, allowed: tuple[Pair, ...], with_held: bool = True) -> CollisionScene:
-    """The scene of a snapshot in the base frame, pairs in `allowed` left out; without what the hands hold if so asked.
+def scene_of(
+    context: Context, snapshot: Snapshot, allowed: tuple[Pair, ...], with_held: bool = True
+) -> CollisionScene:
+    """The scene of a snapshot in the base frame, pairs in `allowed` left out; without what the hands hold if
+    so asked.
 
     Scenes of equal content are one scene: compiling one takes longer than asking it a hundred questions.
     """
-    held = tuple(sorted(snapshot.held.items(), key=lambda item: item[0])) if with_held else ()
-    carried = tuple((side, item.object, item.T_tool_object) for side, item in held if item.member != UNCHOSEN)
+    carried: tuple[Carried, ...] = tuple(
+        (side, held.object, held.T_tool_object)
+        for side, held in sorted(snapshot.held.items())
+        if with_held and held.member != UNCHOSEN
+    )
     present = {*snapshot.standing, *(name for _, name, _ in carried)}
-    named = tuple(sorted({pair for pair in allowed if all(_is_present(context, name, present) for name in pair)}))
+    named = tuple(
+        sorted({pair for pair in allowed if all(_is_present(context, name, present) for name in pair)})
+    )
     content = (snapshot.T_world_base, tuple(snapshot.standing.items()), carried, named)
     known = context.scenes.get(content)
     if known is None:
@@ -51,7 +62,10 @@ def _is_present(context: Context, name: str, objects: set[str]) -> bool:
 
 
 def _compose(
-    context: Context, snapshot: Snapshot, carried: tuple[tuple[Side, str, Pose], ...], allowed: tuple[Pair, ...]
+    context: Context,
+    snapshot: Snapshot,
+    carried: tuple[Carried, ...],
+    allowed: tuple[Pair, ...],
 ) -> CollisionScene:
     scene = context.bare
     for name in snapshot.standing:
@@ -130,13 +144,21 @@ class SceneSpace:
         names = tuple(self.joints[index] for index in moving)
         columns = tuple(self.columns[index] for index in moving)
         return SceneSpace(
-            names, self.lower[moving], self.upper[moving], self.speed[moving], self.scene, self._whole(q), columns
+            names,
+            self.lower[moving],
+            self.upper[moving],
+            self.speed[moving],
+            self.scene,
+            self._whole(q),
+            columns,
         )
 
     def is_free(self, q: Array) -> bool:
+        """See `FreeSpace`."""
         return not self.scene.in_collision(self._whole(q))
 
     def edge_is_free(self, q_start: Array, q_end: Array) -> bool:
+        """See `FreeSpace`."""
         return self.scene.edge_is_free(self._whole(q_start), self._whole(q_end))
 
     def any_contact(self, q: Array) -> bool:
@@ -146,6 +168,7 @@ class SceneSpace:
         return any(self.scene.in_collision(row) for row in whole)
 
     def contact(self, q: Array) -> Pair | None:
+        """See `FreeSpace`."""
         return touching(self.scene, self._whole(q))
 
     def _whole(self, q: Array) -> Array:
@@ -154,7 +177,9 @@ class SceneSpace:
         return whole
 
 
-def space_for(context: Context, snapshot: Snapshot, joints: tuple[str, ...], allowed: tuple[Pair, ...]) -> SceneSpace:
+def space_for(
+    context: Context, snapshot: Snapshot, joints: tuple[str, ...], allowed: tuple[Pair, ...]
+) -> SceneSpace:
     """The free space of `joints` within their planning limits, everything else as in the snapshot."""
     limits = context.limits_of(joints)
     names = context.robot.joint_names

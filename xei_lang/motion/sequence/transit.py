@@ -47,9 +47,11 @@ def _free(context: Context, chain: Chain, before: Snapshot, q_goal: Array) -> Fr
 
 
 def _upright(context: Context, chain: Chain, before: Snapshot, q_goal: Array) -> FreePath | PathBlocked:
-    """A free move that keeps the held object's tilt within the bound: over tool poses, or else a joint path that happens to.
+    """A free move that keeps the held object's tilt within the bound: over tool poses, or else a joint path
+    that happens to.
 
-    What is already tilted more than the bound (by a named configuration) cannot be kept upright and moves freely.
+    What is already tilted more than the bound (by a named configuration) cannot be kept upright and moves
+    freely.
     """
     goal, bound = chain.head, context.profile.calibration.spill_tilt_rad
     joints, columns = context.arm_joints(chain.arm), context.arm_indices(chain.arm)

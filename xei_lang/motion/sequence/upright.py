@@ -1,14 +1,16 @@
 """Free moves that keep what is held upright: planned over where the tool is instead of over joints.
 
-A state is (x, y, z, turn, slide, swivel): the tool's place and its turn about the vertical from where the move begins, in m and
-rad, the slide's height and the arm's swivel angle. Inverse kinematics in one branch makes it a configuration, so that every
-state is upright. The same planner as for joints searches this space; the path is then a spline through close configurations.
+A state is (x, y, z, turn, slide, swivel): the tool's place and its turn about the vertical from where the
+move begins, in m and rad, the slide's height and the arm's swivel angle. Inverse kinematics in one branch
+makes it a configuration, so that every state is upright. The same planner as for joints searches this space;
+the path is then a spline through close configurations.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +35,9 @@ _ALIGNED = 1e-3
 
 
 def tilt(context: Context, before: Snapshot, side: Side, joints: tuple[str, ...], q: Array) -> float:
-    """The largest angle to the vertical of what `side` holds over joint positions (m, joints), rad; 0 with an empty hand."""
+    """The largest angle to the vertical of what `side` holds over joint positions (m, joints), rad; 0 with an
+    empty hand.
+    """
     held = before.held.get(side)
     if held is None:
         return 0.0
@@ -63,10 +67,12 @@ class UprightSpace:
     R_start: Array
 
     def is_free(self, q: Array) -> bool:
+        """See `FreeSpace`."""
         found, valid = self.configurations(q[None])
         return bool(valid[0]) and self.arm.is_free(found[0])
 
     def edge_is_free(self, q_start: Array, q_end: Array) -> bool:
+        """See `FreeSpace`."""
         states = between(q_start, q_end)
         found, valid = self.configurations(states)
         if not valid.all() or np.abs(np.diff(found[:, 1:], axis=0)).max(initial=0.0) > _JUMP_RAD:
@@ -74,6 +80,7 @@ class UprightSpace:
         return not self.arm.any_contact(found)
 
     def contact(self, q: Array) -> Pair | None:
+        """See `FreeSpace`."""
         found, valid = self.configurations(q[None])
         return self.arm.contact(found[0]) if valid[0] else ("held object", "reach of the arm")
 
@@ -98,7 +105,8 @@ def between(start: Array, end: Array) -> Array:
 def plan_upright(
     context: Context, side: Side, before: Snapshot, q_goal: Array, allowed: tuple[Pair, ...], seed: int
 ) -> FreePath | PathBlocked | None:
-    """A free move of slide and arm to `q_goal` (8,) that keeps the tool's tilt; None where the two ends do not allow one.
+    """A free move of slide and arm to `q_goal` (8,) that keeps the tool's tilt; None where the two ends do
+    not allow one.
 
     They must be of one branch and differ in a turn about the vertical only.
     """
@@ -112,7 +120,9 @@ def plan_upright(
     yaw = math.atan2(turn[1, 0], turn[0, 0])
     start = np.array([*T_start[:3, 3], 0.0, q_start[0], swivel_a])
     goal = np.array([*T_goal[:3, 3], yaw, q_goal[0], swivel_a + _wrapped(swivel_b - swivel_a)])
-    space = _space(context, solver, branch, T_start[:3, :3], start, goal, space_for(context, before, joints, allowed))
+    space = _space(
+        context, solver, branch, T_start[:3, :3], start, goal, space_for(context, before, joints, allowed)
+    )
     found = plan_free_path(space, start, goal, seed, max_checks=4000)
     if isinstance(found, PathBlocked):
         return found
@@ -152,7 +162,7 @@ def _joint_path(
     if not valid.all():
         return None
     q[0], q[-1] = q_start, q_goal
-    if not all(space.arm.edge_is_free(a, b) for a, b in zip(q, q[1:], strict=False)):
+    if not all(space.arm.edge_is_free(a, b) for a, b in pairwise(q)):
         return None
     rests = abs(float(np.ptp(q[:, 0]))) < 1e-9
     return spline_path(joints[1:], q[:, 1:]) if rests else spline_path(joints, q)
