@@ -496,11 +496,11 @@ def path_into_body(bench: Bench) -> Fault | None:
 
 
 def contact_not_allowed(bench: Bench) -> Fault | None:
-    """The allowed contact of a held object with what it stands in is taken away, where coal finds the two at least 0.1 mm in each
-    other as the goal starts."""
+    """The allowed contact of a held object with what it stands in is taken away from a goal that moves the object, where coal
+    finds the two at least 0.1 mm in each other as the goal starts or ends."""
     choices = []
     held = {item.object for goal in bench.plan.goals for item in goal.attached}
-    for goal in bench.moving:
+    for goal in (goal for goal in bench.moving if _carries(bench, goal)):
         for item in goal.attached:
             for pair in goal.allowed_contacts:
                 other = bench.world.find(pair[0] if pair[1] == item.object else pair[1])

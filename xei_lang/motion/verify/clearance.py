@@ -71,9 +71,14 @@ def _sift(phase: Phase, pairs: Pairs, rows: Array, travel: Array, contact_m: flo
     """The pairs that lower bounds at some nodes do not already keep apart from node to node."""
     nodes = np.unique([*range(0, len(phase.times), _NODE_STRIDE), len(phase.times) - 1])
     gaps = pairs.gaps(pairs.centers(phase.q[nodes], phase.scene), rows, phase.scene) - contact_m
-    steps = np.diff(travel[nodes], axis=0) @ pairs.weights[rows].T
+    # Sums over few columns, written as einsum: a threaded matrix product costs more than it saves here.
+    columns = np.flatnonzero(travel[-1] > 0.0)
+    travel, weights = travel[:, columns], pairs.weights[np.ix_(rows, columns)]
+    steps = np.einsum("nj,pj->np", np.diff(travel[nodes], axis=0), weights)
     apart = np.all(gaps > 0.0, axis=0) & np.all(gaps[1:] + gaps[:-1] > steps, axis=0)
-    return [_Near(int(row), travel @ pairs.weights[row]) for row in rows[~apart]]
+    return [
+        _Near(int(rows[k]), np.einsum("nj,j->n", travel, weights[k])) for k in np.flatnonzero(~apart)
+    ]
 
 
 def _advance(context: Context, bodies: Bodies, pairs: Pairs, phase: Phase, near: list[_Near]) -> int:
