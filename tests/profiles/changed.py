@@ -11,7 +11,8 @@ SMALL = Path(__file__).parent / "small"
 def changed_profile(folder: Path, edit: str) -> Path:
     """Copy the small profile to `folder/lab` and change it.
 
-    `edit` is a file's name on a line, then lines `- old` and `+ new`; each old text must stand in the file just once.
+    `edit` is a file's name on a line, then lines `- old` and `+ new`; each old text stands in the file just
+    once.
     Several files follow each other, each after its name.
     """
     lab = folder / "lab"

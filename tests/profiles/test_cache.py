@@ -43,10 +43,14 @@ def test_an_unchanged_profile_comes_back_whole(lab, tmp_path, monkeypatch):
     assert loaded.objects == built.objects
     assert loaded.calibration == built.calibration
     assert loaded.robot == built.robot
-    rules = [(a, b) for old, new in zip(built.bank.skills, loaded.bank.skills, strict=True)
-             for a, b in zip(old.requires + old.ensures, new.requires + new.ensures, strict=True)]  # fmt: skip
-    assert rules
-    assert all(a.span == b.span and equal_up_to_spans(a.predicate, b.predicate) for a, b in rules)
+    before, after = (
+        [rule for skill in profile.bank.skills for rule in skill.requires + skill.ensures]
+        for profile in (built, loaded)
+    )
+    assert before
+    for old, new in zip(before, after, strict=True):
+        assert old.span == new.span
+        assert equal_up_to_spans(old.predicate, new.predicate)
 
 
 def test_warnings_come_back_too(tmp_path, monkeypatch):

@@ -15,10 +15,12 @@ scalars = (
     | st.integers(-(10**9), 10**9)
     | st.text("abc äß\U0001f9ea:#-'\"\n1.,", max_size=12)
 )
+names = st.text("abc", min_size=1)
 values = st.recursive(
-    scalars, lambda below: st.lists(below, max_size=3) | st.dictionaries(st.text("abc", min_size=1), below, max_size=3),
+    scalars,
+    lambda below: st.lists(below, max_size=3) | st.dictionaries(names, below, max_size=3),
     max_leaves=12,
-)  # fmt: skip
+)
 
 
 @given(st.dictionaries(st.text("xyz", min_size=1), values, min_size=1, max_size=4), st.booleans())
@@ -55,5 +57,12 @@ def test_places_cut_out_the_words_also_after_wide_characters():
     root, _ = read_yaml("f.yaml", text)
     assert root is not None
     assert [(value, text[span.start : span.end]) for value, span in leaves(root)] == [
-        ("ä🧪", "ä🧪"), ("bä", "bä"), (1, "1"), ("b", "b"), ("c", "c"), ("word", "word"), ("d", "d"), ("q", "'q'"),
-    ]  # fmt: skip
+        ("ä🧪", "ä🧪"),
+        ("bä", "bä"),
+        (1, "1"),
+        ("b", "b"),
+        ("c", "c"),
+        ("word", "word"),
+        ("d", "d"),
+        ("q", "'q'"),
+    ]

@@ -87,23 +87,10 @@ def _shape(model: ShapeModel, root: Node, path: Path, found: list[Diagnostic]) -
             )
         )
         return None
-    shape: Shape
     if model.box is not None:
-        shape = Box(vec3(model.box))
-    else:
-        assert model.cylinder is not None
-        shape = Cylinder(model.cylinder.diameter.si / 2, model.cylinder.height.si)
-    if min(_size(shape)) <= 0.0:
-        found.append(
-            Diagnostic(
-                "XEI0640",
-                "a shape must have a size above zero in every direction",
-                root.span_of(*path),
-                label="zero or negative",
-            )
-        )
-        return None
-    return shape
+        return Box(vec3(model.box))
+    assert model.cylinder is not None
+    return Cylinder(model.cylinder.diameter.si / 2, model.cylinder.height.si)
 
 
 def _parts(

@@ -24,15 +24,9 @@ from xei_lang.profiles.files import ProfileFiles
 from xei_lang.profiles.model import Profile
 
 _PACKAGES = (
-    "profiles",
-    "profiles/checks",
-    "profiles/schema",
-    "diagnostics",
-    "ir",
-    "quantity",
-    "syntax",
-    "syntax/ast",
-)
+    "profiles", "profiles/checks", "profiles/model", "profiles/schema", "diagnostics", "ir", "quantity",
+    "syntax", "syntax/ast",
+)  # fmt: skip
 
 
 def default_cache() -> Path:

@@ -119,10 +119,17 @@ def _wrong_value(details: ErrorDetails, path: Path, root: Node) -> Diagnostic:
         )
     reason = details["msg"].removeprefix("Input should ").removeprefix("Value error, ")
     if details["type"] == "string_pattern_mismatch":
-        reason = "must be a name: small letters, digits and `_`, beginning with a letter"
+        row = details.get("ctx", {}).get("pattern", "").startswith("^[A-Za-z]")
+        wanted = (
+            "one to four letters" if row else "a name: small letters, digits and `_`, beginning with a letter"
+        )
+        reason = f"must be {wanted}"
         span = root.key_span(*path) if details["loc"][-1] == "[key]" else root.span_of(*path)
         return Diagnostic(
-            "XEI0609", f"{shown if node.kind == 'scalar' else name} {reason}", span, label="not a name"
+            "XEI0609",
+            f"{shown if node.kind == 'scalar' else name} {reason}",
+            span,
+            label=f"expected {wanted}",
         )
     reason = reason.removeprefix("be ")
     return Diagnostic(

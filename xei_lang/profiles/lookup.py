@@ -12,8 +12,8 @@ from xei_lang.resources import resource_path
 def find_profile(name: str, start: Path, explicit: Path | None) -> Path | None:
     """The folder of the profile of this name, or None.
 
-    `explicit` is the folder itself, or one that holds folders of profiles, and is then the only place. `start`
-    is the protocol, or the folder that it stands in.
+    `explicit` is the folder itself, or one that holds profiles, and is then the only place. `start` is the
+    protocol, or the folder that it stands in.
     """
     for place in search_places(start, explicit):
         candidate = place / name

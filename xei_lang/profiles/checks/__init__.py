@@ -24,6 +24,6 @@ def check_profile(profile: Profile, trees: Trees) -> Diagnostics:
         *check_frames(profile, trees),
         *check_limits(profile, trees),
         *check_priors(profile),
-        *check_geometry(profile),
+        *check_geometry(profile, trees),
     )
     return found if has_errors(found) else (*found, *check_overlap(profile))

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from xei_lang.diagnostics import Diagnostic, Label
 from xei_lang.profiles.grid import T_frame_object, T_world_frame
 from xei_lang.profiles.model import LabObject, Profile, SlotGrid
+from xei_lang.profiles.trees import Trees
 
 FIT_M = 0.0005
 """A bore must exceed what goes in by this much: catalogue diameters of tubes and bores hold to about half a
@@ -15,7 +16,7 @@ millimetre.
 _SLACK_M = 1e-6
 
 
-def check_geometry(profile: Profile) -> Iterator[Diagnostic]:
+def check_geometry(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
     """Slots against their object and against what they accept, vessels, tables, and objects below their
     table.
     """
@@ -26,6 +27,7 @@ def check_geometry(profile: Profile) -> Iterator[Diagnostic]:
         yield from _vessel(item)
         yield from _below(profile, item)
     yield from _table(profile)
+    yield from _bounds(profile, trees)
 
 
 def _slots(item: LabObject, grid: SlotGrid) -> Iterator[Diagnostic]:
@@ -43,6 +45,8 @@ def _slots(item: LabObject, grid: SlotGrid) -> Iterator[Diagnostic]:
             "have mouths above its top",
             f"{_mm(grid.origin_m[2])}, and it is {_mm(item.size_m[2])} high",
         )
+    if len(set(grid.rows)) < len(grid.rows):
+        yield _wrong(item, grid, "have two rows of one name", ", ".join(grid.rows))
     counts = (grid.columns, len(grid.rows))
     for axis, name in enumerate("xy"):
         if counts[axis] > 1 and grid.pitch_m[axis] < grid.bore_m:
@@ -138,6 +142,21 @@ def _table(profile: Profile) -> Iterator[Diagnostic]:
             frame.span,
             label=f"{_mm(height)} up, and `table` says {_mm(calibration.table_height_m)}",
         )
+
+
+def _bounds(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
+    calibration = profile.calibration
+    for path, (lower, upper) in (
+        (("workspace",), calibration.workspace_bounds_m),
+        (("table", "bounds"), calibration.table_bounds_m),
+    ):
+        if not all(low < high for low, high in zip(lower, upper, strict=True)):
+            yield Diagnostic(
+                "XEI0640",
+                f"the bounds of `{path[0]}` hold nothing",
+                trees.calibration.span_of(*path),
+                label="expected every number of `lower` below that of `upper`",
+            )
 
 
 def _mm(length_m: float) -> str:

@@ -7,24 +7,25 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from xei_lang.profiles.schema.values import (
-    Angle,
     AngleVector,
     AngularSpeed,
     Bounds,
+    Distance,
     Force,
     JointAcceleration,
     JointPosition,
     JointVelocity,
-    Length,
     LengthVector,
     Mass,
     Model,
     Name,
+    Size,
     Speed,
     Status,
     Text,
     Tolerance,
     Torque,
+    Turn,
 )
 
 
@@ -67,14 +68,14 @@ class StationModel(Model):
     base: BasePoseModel
     status: Status
     ground_frame: Name
-    slide: Length
+    slide: Distance
 
 
 class DockingModel(Model):
     """How well the base reaches a station (bounds)."""
 
-    position: Length
-    rotation: Angle
+    position: Distance
+    rotation: Turn
     status: Status
     remark: Text
 
@@ -90,7 +91,7 @@ class MobileBaseModel(Model):
 class TableModel(Model):
     """The table's height above the floor and the volume above it, in the table's frame."""
 
-    height: Length
+    height: Size
     status: Status
     method: Text
     bounds: Bounds
@@ -110,7 +111,7 @@ class TagModel(Model):
     """One AprilTag: the pose of its centre in a frame, z out of the paper."""
 
     id: Annotated[int, Field(ge=0)]
-    size: Length
+    size: Size
     frame: Name
     position: LengthVector
     rpy: AngleVector
@@ -166,8 +167,8 @@ class CalibrationProfile(Model):
     table: TableModel
     workspace: Bounds
     payload: Mass
-    spill_tilt: Angle
-    clearance: Length
+    spill_tilt: Turn
+    clearance: Distance
     map: MapModel
     apriltags: TagsModel
     cameras: dict[Name, CameraModel] = Field(default={})

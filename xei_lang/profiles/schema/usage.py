@@ -9,14 +9,18 @@ from pydantic import Field
 from xei_lang.profiles.schema.values import (
     AngleVector,
     Count,
+    Distance,
     Fraction01,
-    Length,
     LengthPair,
     LengthVector,
     Mass,
     Model,
     Name,
     OperationValue,
+    RowName,
+    Size,
+    SizePair,
+    SizeVector,
     Text,
     Volume,
 )
@@ -25,14 +29,14 @@ from xei_lang.profiles.schema.values import (
 class CylinderSize(Model):
     """A cylinder that stands on its bottom."""
 
-    diameter: Length
-    height: Length
+    diameter: Size
+    height: Size
 
 
 class ShapeModel(Model):
     """Just one of: a box by its edges along x, y and z, or a cylinder."""
 
-    box: LengthVector | None = None
+    box: SizeVector | None = None
     cylinder: CylinderSize | None = None
 
 
@@ -48,7 +52,7 @@ class LiquidModel(Model):
 
     capacity: Volume
     dead_volume: Volume
-    inner_diameter: Length
+    inner_diameter: Size
 
 
 class StateModel(Model):
@@ -63,13 +67,13 @@ class SlotsModel(Model):
     from the bottom.
     """
 
-    rows: list[str] = Field(min_length=1, max_length=100)
+    rows: list[RowName] = Field(min_length=1, max_length=100)
     columns: Count
-    pitch: LengthPair
+    pitch: SizePair
     origin: LengthVector
-    bore: Length
-    chamfer: Length
-    depth: Length
+    bore: Size
+    chamfer: Distance
+    depth: Size
     accepts: list[Name]
 
 
@@ -84,7 +88,7 @@ class ElementModel(Model):
     """An element of a touch screen, from the screen's bottom left corner: right and up."""
 
     center: LengthPair
-    size: LengthPair
+    size: SizePair
 
 
 class PriorModel(Model):

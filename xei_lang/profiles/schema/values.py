@@ -36,10 +36,15 @@ _EXAMPLES = {
 _PATTERN = r"^[+-]?[0-9]+(\.[0-9]+)?[ \t]*[^\s0-9.]\S*$"
 
 
+Sign = Literal["any", "not negative", "above zero"]
+_SIGNS = {"any": "", "not negative": "of zero or above", "above zero": "above zero"}
+_MEASURE = "measure it, and write what it is"
+
+
 class Model(BaseModel):
     """Every part of a profile: unknown keys are refused, and nothing is converted in silence."""
 
-    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
 
 
 def read_quantity(value: object, example: str) -> Quantity:
@@ -62,11 +67,12 @@ def quantity_error(reason: str, way_out: str) -> PydanticCustomError:
 
 class Measures:
     """Marks a quantity that is written as text and must measure one of these things; without any, whatever it
-    is.
+    is. `sign` says which values have a meaning.
     """
 
-    def __init__(self, *dimensions: Dimension) -> None:
+    def __init__(self, *dimensions: Dimension, sign: Sign = "any") -> None:
         self.dimensions = dimensions
+        self.sign = sign
         self.example = _EXAMPLES[dimensions[0]] if dimensions else "80 mm"
 
     def read(self, value: object) -> Quantity:
@@ -76,6 +82,8 @@ class Measures:
             wanted = " or ".join(dimension.name for dimension in self.dimensions)
             found = f"`{value}` is a quantity of {quantity.dimension.name}, expected {wanted}"
             raise quantity_error(found, f"write for example `{self.example}`")
+        if (self.sign == "above zero" and quantity.value <= 0) or (self.sign != "any" and quantity.value < 0):
+            raise quantity_error(f"`{value}` is out of range, expected a value {_SIGNS[self.sign]}", _MEASURE)
         return quantity
 
     def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> CoreSchema:
@@ -103,25 +111,31 @@ class OperationParameter:
 
 
 Length = Annotated[Quantity, Measures(LENGTH)]
+Size = Annotated[Quantity, Measures(LENGTH, sign="above zero")]
+Distance = Annotated[Quantity, Measures(LENGTH, sign="not negative")]
 Angle = Annotated[Quantity, Measures(ANGLE)]
-Mass = Annotated[Quantity, Measures(MASS)]
-Volume = Annotated[Quantity, Measures(VOLUME)]
-Speed = Annotated[Quantity, Measures(SPEED)]
-AngularSpeed = Annotated[Quantity, Measures(ANGULAR_SPEED)]
+Turn = Annotated[Quantity, Measures(ANGLE, sign="not negative")]
+Mass = Annotated[Quantity, Measures(MASS, sign="above zero")]
+Volume = Annotated[Quantity, Measures(VOLUME, sign="above zero")]
+Speed = Annotated[Quantity, Measures(SPEED, sign="above zero")]
+AngularSpeed = Annotated[Quantity, Measures(ANGULAR_SPEED, sign="above zero")]
 JointPosition = Annotated[Quantity, Measures(ANGLE, LENGTH)]
-JointVelocity = Annotated[Quantity, Measures(ANGULAR_SPEED, SPEED)]
-JointAcceleration = Annotated[Quantity, Measures(ANGULAR_ACCELERATION, ACCELERATION)]
-Torque = Annotated[Quantity, Measures(TORQUE)]
-Force = Annotated[Quantity, Measures(FORCE)]
+JointVelocity = Annotated[Quantity, Measures(ANGULAR_SPEED, SPEED, sign="above zero")]
+JointAcceleration = Annotated[Quantity, Measures(ANGULAR_ACCELERATION, ACCELERATION, sign="above zero")]
+Torque = Annotated[Quantity, Measures(TORQUE, sign="above zero")]
+Force = Annotated[Quantity, Measures(FORCE, sign="above zero")]
 AnyQuantity = Annotated[Quantity, Measures()]
 OperationValue = Annotated[Quantity | str, OperationParameter()]
 
 Name = Annotated[str, StringConstraints(pattern=r"^[a-z][a-z0-9_]*$", max_length=80)]
+RowName = Annotated[str, StringConstraints(pattern=r"^[A-Za-z]{1,4}$")]
 Text = Annotated[str, StringConstraints(min_length=1, max_length=500)]
 Count = Annotated[int, Field(ge=1, le=1000)]
 Fraction01 = Annotated[float, Field(ge=0.0, le=1.0)]
 Status = Literal["measured", "estimated", "placeholder"]
 LengthPair = Annotated[list[Length], Field(min_length=2, max_length=2)]
+SizePair = Annotated[list[Size], Field(min_length=2, max_length=2)]
+SizeVector = Annotated[list[Size], Field(min_length=3, max_length=3)]
 LengthVector = Annotated[list[Length], Field(min_length=3, max_length=3)]
 AngleVector = Annotated[list[Angle], Field(min_length=3, max_length=3)]
 
@@ -136,5 +150,5 @@ class Bounds(Model):
 class Tolerance(Model):
     """Standard deviations of a transform."""
 
-    position: Length
-    rotation: Angle
+    position: Distance
+    rotation: Turn

@@ -1,0 +1,79 @@
+"""The profiles as the compiler sees them: frozen, in SI units, each part with the place that it was written
+at.
+
+These are plain dataclasses so that an unchanged profile is loaded from its compiled form without pydantic.
+The pydantic models that validate the YAML files stand in `profiles/schema/`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from xei_lang.profiles.model.bank import ArgSpec, SkillBank, SkillRule, SkillSpec, TemplateStep
+from xei_lang.profiles.model.calibration import (
+    CalibratedFrame,
+    Calibration,
+    PlanningLimit,
+    SceneOrigin,
+    Status,
+)
+from xei_lang.profiles.model.lab import (
+    Element,
+    FiniteState,
+    LabObject,
+    Liquid,
+    OperationDefault,
+    Prior,
+    SlotGrid,
+    Spot,
+)
+from xei_lang.profiles.model.robot import NamedState, RobotDescription, RobotJoint
+
+__all__ = [
+    "ArgSpec",
+    "CalibratedFrame",
+    "Calibration",
+    "Element",
+    "FiniteState",
+    "LabObject",
+    "Liquid",
+    "NamedState",
+    "OperationDefault",
+    "PlanningLimit",
+    "Prior",
+    "Profile",
+    "RobotDescription",
+    "RobotJoint",
+    "SceneOrigin",
+    "SkillBank",
+    "SkillRule",
+    "SkillSpec",
+    "SlotGrid",
+    "Spot",
+    "Status",
+    "TemplateStep",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """A whole profile folder: all objects sorted by name, the skill bank, the calibration, the robot's
+    description.
+
+    `files` maps each file (path relative to the folder) to the SHA-256 of its bytes; `hazards` lists those of
+    each liquid.
+    """
+
+    name: str
+    folder: str
+    objects: tuple[LabObject, ...]
+    bank: SkillBank
+    calibration: Calibration
+    incompatible: tuple[tuple[str, str], ...]
+    files: tuple[tuple[str, str], ...]
+    robot: RobotDescription
+    hazards: tuple[tuple[str, tuple[str, ...]], ...] = ()
+
+    def object(self, name: str) -> LabObject | None:
+        """The object of this name, or None."""
+        return next((item for item in self.objects if item.name == name), None)

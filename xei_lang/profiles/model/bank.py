@@ -1,0 +1,100 @@
+"""What a development profile says: the skills, their contracts and templates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from xei_lang.diagnostics import Span
+from xei_lang.profiles.model.lab import OperationDefault
+from xei_lang.quantity import Quantity
+
+if TYPE_CHECKING:
+    from xei_lang.ir.goals import GoalKind
+    from xei_lang.syntax.ast import Predicate, TypeExpr
+
+
+@dataclass(frozen=True, slots=True)
+class ArgSpec:
+    """An argument of a skill. `type` is `object`, `Place`, `Station`, `Arm`, a quantity's type, `Int`,
+    `Float`, `Bool`, `String`, or `choice` (then `choices` are its words). Bounds hold for quantities and
+    numbers, ends included.
+
+    For a Place, `choices` are the kinds that it admits (`slot`, `spot`, `surface`; empty admits all), and an
+    object whose roles satisfy `roles` may be given for its whole surface. `roles_text` is what the profile
+    says, for messages.
+    """
+
+    name: str
+    type: str
+    roles: TypeExpr | None
+    min: Quantity | None
+    max: Quantity | None
+    default: str | Quantity | int | float | bool | None
+    required: bool
+    choices: tuple[str, ...]
+    span: Span
+    roles_text: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class SkillRule:
+    """A predicate of a skill's contract, in its words and parsed."""
+
+    text: str
+    predicate: Predicate
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class TemplateStep:
+    """One line of a skill's template: a goal kind and its fields, whose values may name arguments (`arm`),
+    points of an operation (`object.pregrasp`) or operation parameters (`open_width`).
+    """
+
+    kind: GoalKind
+    fields: tuple[tuple[str, str | int | float | bool], ...]
+    span: Span
+
+    def field(self, name: str) -> str | int | float | bool | None:
+        """The value of a field, or None."""
+        return dict(self.fields).get(name)
+
+
+@dataclass(frozen=True, slots=True)
+class SkillSpec:
+    """A registered skill: its contract and its template."""
+
+    name: str
+    owner: str
+    summary: str
+    args: tuple[ArgSpec, ...]
+    exposed: bool
+    requires: tuple[SkillRule, ...]
+    ensures: tuple[SkillRule, ...]
+    duration_s: tuple[float, float]
+    unsupported: tuple[str, ...]
+    process: str
+    phrases: tuple[str, ...]
+    parameters: tuple[OperationDefault, ...]
+    template: tuple[TemplateStep, ...]
+    span: Span
+
+    def arg(self, name: str) -> ArgSpec | None:
+        """The argument of this name, or None."""
+        return next((item for item in self.args if item.name == name), None)
+
+
+@dataclass(frozen=True, slots=True)
+class SkillBank:
+    """The capability contract: the robot's parts and everything it has learnt to do."""
+
+    urdf: str
+    srdf: str
+    arms: tuple[str, ...]
+    owners: tuple[str, ...]
+    skills: tuple[SkillSpec, ...]
+
+    def skill(self, name: str) -> SkillSpec | None:
+        """The skill of this name, or None."""
+        return next((item for item in self.skills if item.name == name), None)

@@ -1,0 +1,86 @@
+"""What a calibration profile says: frames, limits, stations, tolerances."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from xei_lang.diagnostics import Span
+from xei_lang.ir.geometry import Pose, Vec3
+
+Status = Literal["measured", "estimated", "placeholder"]
+
+
+@dataclass(frozen=True, slots=True)
+class CalibratedFrame:
+    """A static transform of the deployment and how well it is known."""
+
+    name: str
+    parent: str
+    T_parent_frame: Pose
+    status: Status
+    measured_on: str
+    method: str
+    position_tolerance_m: float
+    rotation_tolerance_rad: float
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class PlanningLimit:
+    """The limits that plans keep for one joint, and why these: rad, rad/s, rad/s2, N m (m, N for prismatic
+    joints).
+    """
+
+    joint: str
+    lower: float
+    upper: float
+    velocity: float
+    acceleration: float
+    torque: float
+    reason: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class SceneOrigin:
+    """A station: the base pose (in `world`) from which a bench is worked, and the frame to ground again
+    there.
+    """
+
+    name: str
+    aliases: tuple[str, ...]
+    T_world_base: Pose
+    status: Status
+    ground_frame: str
+    slide_m: float
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Calibration:
+    """Frames, limits and tolerances of this deployment. Bounds are `(min xyz, max xyz)` in their frame,
+    metres.
+
+    `robot_frames` maps frames that the robot carries to links of its description. `placeholders` lists what
+    nobody has measured yet and what therefore blocks a run on hardware.
+    """
+
+    frames: tuple[CalibratedFrame, ...]
+    limits: tuple[PlanningLimit, ...]
+    stations: tuple[SceneOrigin, ...]
+    start_station: str
+    table_height_m: float
+    table_height_status: Status
+    table_bounds_m: tuple[Vec3, Vec3]
+    workspace_bounds_m: tuple[Vec3, Vec3]
+    map_frame: str
+    docking_position_tolerance_m: float
+    docking_rotation_tolerance_rad: float
+    base_speed_m_s: float
+    base_turn_rad_s: float
+    payload_kg: float
+    spill_tilt_rad: float
+    clearance_m: float
+    placeholders: tuple[tuple[str, Span], ...]
+    robot_frames: tuple[tuple[str, str], ...] = ()

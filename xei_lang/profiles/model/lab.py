@@ -1,0 +1,119 @@
+"""What a usage profile and an object registry say: the things in the lab and the room."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from xei_lang.diagnostics import Span
+from xei_lang.ir.geometry import Pose, Primitive, Shape, Vec3
+from xei_lang.quantity import Quantity
+
+
+@dataclass(frozen=True, slots=True)
+class Liquid:
+    """A container's volumes in m3 and its inner diameter in m."""
+
+    capacity_m3: float
+    dead_volume_m3: float
+    inner_diameter_m: float
+
+
+@dataclass(frozen=True, slots=True)
+class FiniteState:
+    """A declared state of an object, its values and the value it starts with."""
+
+    name: str
+    values: tuple[str, ...]
+    initial: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class SlotGrid:
+    """A grid of slots: `rows[i]` and column j (from 1) name the slot `A1`; its mouth stands at `origin_m +
+    (j-1) * pitch_m[0] * x + i * pitch_m[1] * y` in the object's frame, its axis along z.
+
+    `origin_m` is given from the corner of the bounding box with the smallest x and y, z from the bottom.
+    """
+
+    rows: tuple[str, ...]
+    columns: int
+    pitch_m: tuple[float, float]
+    origin_m: Vec3
+    bore_m: float
+    chamfer_m: float
+    depth_m: float
+    accepts: tuple[str, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Spot:
+    """A named place on a surface: where the bottom centre of an object stands, in the surface's frame."""
+
+    name: str
+    T_object_spot: Pose
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Element:
+    """An element of a touch screen: centre and size on the screen's plane, metres."""
+
+    name: str
+    center_m: tuple[float, float]
+    size_m: tuple[float, float]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Prior:
+    """Where an object is believed to be: in a place of another object, or (`in_object` empty) at a pose in a
+    frame.
+    """
+
+    in_object: str
+    in_key: str
+    frame: str
+    T_frame_object: Pose
+    confidence: float
+    span: Span
+    in_kind: Literal["", "slot", "spot"] = ""
+
+
+@dataclass(frozen=True, slots=True)
+class OperationDefault:
+    """An operation parameter that a profile states for an object or a skill (`approach`, `width`,
+    `standoff`).
+    """
+
+    name: str
+    value: Quantity | str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class LabObject:
+    """An object of the usage profile or a system object of the registry. Its frame is at its bottom centre, z
+    up.
+    """
+
+    name: str
+    aliases: tuple[str, ...]
+    roles: tuple[str, ...]
+    shape: Shape
+    geometry: tuple[Primitive, ...]
+    size_m: Vec3
+    mass_kg: float
+    skills: tuple[str, ...]
+    states: tuple[FiniteState, ...]
+    liquid: Liquid | None
+    grasp: tuple[OperationDefault, ...]
+    slots: SlotGrid | None
+    spots: tuple[Spot, ...]
+    elements: tuple[Element, ...]
+    prior: Prior | None
+    assets: tuple[tuple[str, str | None], ...]
+    system: bool
+    span: Span
