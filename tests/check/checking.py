@@ -32,7 +32,9 @@ def parser() -> Parser:
 
 @cache
 def profile_sources() -> Sources:
-    files = {thing.span.file for thing in profile().objects} | {skill.span.file for skill in profile().bank.skills}
+    files = {thing.span.file for thing in profile().objects} | {
+        skill.span.file for skill in profile().bank.skills
+    }
     return {file: Source(file, (LAB / Path(file).name).read_text(encoding="utf-8")) for file in sorted(files)}
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import shlex
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -22,7 +23,7 @@ def produce(text: str) -> str:
     first = text.partition("\n")[0]
     words = shlex.split(first.removeprefix("# options:")) if first.startswith("# options:") else []
     pairs = {"--bind": {}, "--param": {}}
-    for flag, value in zip(words, words[1:], strict=False):
+    for flag, value in pairwise(words):
         if flag in pairs:
             name, _, given = value.partition("=")
             pairs[flag][name] = given
@@ -36,6 +37,10 @@ def test_messages(page: Path, markdown: Callable[[Path, Callable[[str], str]], N
 
 
 def test_every_code_of_the_checker_is_shown() -> None:
-    shown = {code for page in PAGES for code in re.findall(r"\[(XEI\d{4})\]", page.read_text(encoding="utf-8"))}
-    ours = {code for code in CATALOGUE if "XEI0201" <= code < "XEI0240" or code.startswith(("XEI03", "XEI05"))}
+    shown = {
+        code for page in PAGES for code in re.findall(r"\[(XEI\d{4})\]", page.read_text(encoding="utf-8"))
+    }
+    ours = {
+        code for code in CATALOGUE if "XEI0201" <= code < "XEI0240" or code.startswith(("XEI03", "XEI05"))
+    }
     assert ours - shown == ELSEWHERE

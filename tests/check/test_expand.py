@@ -66,14 +66,17 @@ def test_a_procedure_is_inlined_under_the_path_of_its_call() -> None:
 
 
 def test_a_procedure_that_nothing_calls_is_checked_for_all_that_it_may_be_given() -> None:
-    wrong = "procedure bad(tube: movable, v: Volume in 1 mL .. 90 mL) { pour(source=tube, target=tube, volume=v) }\n"
+    body = "pour(source=tube, target=tube, volume=v)"
+    wrong = f"procedure bad(tube: movable, v: Volume in 1 mL .. 90 mL) {{ {body} }}\n"
     found = [item.code for item in check(wrong + protocol("wait 1 s"))[1]]
     assert found == ["XEI0309", "XEI0308"]
     assert check(PROCEDURES)[1] == ()
 
 
 def test_calls_that_lie_too_deep_in_each_other_are_refused() -> None:
-    chain = "".join(f"procedure p{n}() {{ p{n + 1}() }}\n" for n in range(60)) + "procedure p60() { wait 1 s }\n"
+    chain = (
+        "".join(f"procedure p{n}() {{ p{n + 1}() }}\n" for n in range(60)) + "procedure p60() { wait 1 s }\n"
+    )
     assert [item.code for item in check(chain + protocol("p0()"))[1]] == ["XEI0321"]
 
 
@@ -129,9 +132,15 @@ def test_open_objects_and_parameters_check_and_bound_ones_compile() -> None:
 
 
 def test_time_clauses_are_recorded_from_end_to_start() -> None:
-    plan = plan_of(protocol("a: wait 1 s within 2 s\nb: do { wait 1 s wait 2 s } within 1 min\n"
-                            "wait 1 s after a by 1 s .. 2 s\nwait 1 s within 5 s of b\nwait 1 s after b"))  # fmt: skip
-    shown = [(c.from_step, c.from_end, c.to_step, c.to_end, c.lower_s, c.upper_s) for c in plan.constraints]
+    body = """
+      a: wait 1 s within 2 s
+      b: do { wait 1 s wait 2 s } within 1 min
+      wait 1 s after a by 1 s .. 2 s
+      wait 1 s within 5 s of b
+      wait 1 s after b
+    """
+    found = plan_of(protocol(body)).constraints
+    shown = [(c.from_step, c.from_end, c.to_step, c.to_end, c.lower_s, c.upper_s) for c in found]
     assert shown == [
         ("a", "start", "a", "end", 0.0, 2.0),
         ("b.wait#1", "start", "b.wait#2", "end", 0.0, 60.0),
@@ -144,9 +153,12 @@ def test_time_clauses_are_recorded_from_end_to_start() -> None:
 def test_notes_gaps_and_questions_stand_in_their_places() -> None:
     body = 'unmapped "spin" because "no skill"\nfor i in 1 .. 2 { wait 1 s note "hot" }\nconfirm "ice?"\nnote "end"'
     plan = plan_of(protocol(body))
-    assert [(gap.text, gap.reason, gap.after_step) for gap in plan.unmapped_requests] == [("spin", "no skill", None)]
-    assert [(note.text, note.after_step) for note in plan.safety_notes] == [("hot", "wait#1[1]"), ("end", "confirm#1")]
-    assert (plan.steps[2].kind, plan.steps[2].owner, plan.steps[2].resources) == ("confirm", "person", ("person",))
+    gaps = [(gap.text, gap.reason, gap.after_step) for gap in plan.unmapped_requests]
+    assert gaps == [("spin", "no skill", None)]
+    notes = [(note.text, note.after_step) for note in plan.safety_notes]
+    assert notes == [("hot", "wait#1[1]"), ("end", "confirm#1")]
+    asked = plan.steps[2]
+    assert (asked.kind, asked.owner, asked.resources) == ("confirm", "person", ("person",))
 
 
 def test_resources_come_from_the_template() -> None:
@@ -178,10 +190,14 @@ def test_nested_loops_make_the_product_of_their_turns(turns: list[int]) -> None:
         "for i in 0 mL .. 5 mL step 0.000000001 nL { wait 1 s }",
         "for i in 1 .. 99999 { for j in 1 .. 99999 { for k in 1 .. 99999 { wait 1 s } } }",
         "let xs = [i for i in 1 .. 1000000000]\nwait 1 s",
+        "let xs = [len([j for j in 1 .. 9999]) for i in 1 .. 9999]\nwait 1 s",
+        "repeat 9999 times { repeat 9999 times { let x = 1 } }",
+        "for i in 1 .. 9999 { let x = [j for j in 1 .. 9999] }",
     ],
 )
 def test_too_many_steps_are_refused_before_they_are_made(body: str) -> None:
-    assert codes(body, max_steps=100_000) == ["XEI0316"]
+    found = [code for code in codes(body, max_steps=10_000) if code != "XEI0501"]
+    assert found == ["XEI0316"]
 
 
 def test_the_bound_counts_what_turns_really_make() -> None:
@@ -194,3 +210,8 @@ def test_the_bound_counts_what_turns_really_make() -> None:
 
 def test_one_mistake_in_a_loop_is_said_once() -> None:
     assert codes("for i in 1 .. 50 { pick(object=tube_9) pick(object=table) }") == ["XEI0202", "XEI0309"]
+
+
+def test_numbers_do_not_grow_without_bound() -> None:
+    squares = "let x0 = 12345\n" + "".join(f"let x{n + 1} = x{n} * x{n}\n" for n in range(60))
+    assert codes(f"{squares} wait x60 * 1 s") == ["XEI0312"]

@@ -13,7 +13,11 @@ from tests.check.checking import check, protocol
         ("pick(tube_1)", "pick(object=tube_1)", "safe"),
         ('pick(object="tube_1")', "pick(object=tube_1)", "safe"),
         ("pick(objct=tube_1)", "pick(object=tube_1)", "unsafe"),
-        ("spin(object=tube_1, force=3000 g, for=1 min)", "spin(object=tube_1, force=3000 xg, for=1 min)", "safe"),
+        (
+            "spin(object=tube_1, force=3000 g, for=1 min)",
+            "spin(object=tube_1, force=3000 xg, for=1 min)",
+            "safe",
+        ),
         ("wait 10 m", "wait 10 min", "unsafe"),
     ],
 )

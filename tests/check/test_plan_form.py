@@ -9,7 +9,7 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from tests.check.checking import BENCH, LAB, ROOT, plan_of, protocol
+from tests.check.checking import LAB, ROOT, plan_of, protocol
 from tests.check.test_properties import RICH
 from xei_lang.diagnostics import Source
 from xei_lang.ir.forms import plan_json
@@ -24,7 +24,7 @@ def form(text: str, folder: Path = LAB, **options: object) -> str:
 
 def test_put_on_rack(golden: Callable[[str, str], None]) -> None:
     text = (ROOT / "protocols" / "put_on_rack.xei").read_text(encoding="utf-8")
-    golden("check/put_on_rack.plan.json", form(text, BENCH))
+    golden("check/put_on_rack.plan.json", form(text))
 
 
 def test_every_part_of_the_form(golden: Callable[[str, str], None]) -> None:
@@ -43,14 +43,18 @@ def test_the_same_protocol_gives_the_same_bytes() -> None:
 
 def test_values_are_written_as_a_reader_wants_them() -> None:
     text = protocol(
-        'pour(source=cup_1, target=tube_1, volume=2500 uL)\nspin(object=tube_1, force=200 xg, for=1.5 min)\n'
+        "pour(source=cup_1, target=tube_1, volume=2500 uL)\nspin(object=tube_1, force=200 xg, for=1.5 min)\n"
         'place(object=tube_1, on=rack_2.slot("A1"))\nplace(object=cup_1, on=table)\nwait 1 s within 1 min'
     )
     plan = json.loads(form(text))
     pour, spin, slot, surface, wait = plan["skill_calls"]
     assert pour["args"] == {
-        "source": "cup_1", "target": "tube_1", "volume": {"value": 2500, "unit": "uL"}, "pace": "slow", "arm": "either",
-    }  # fmt: skip
+        "source": "cup_1",
+        "target": "tube_1",
+        "volume": {"value": 2500, "unit": "uL"},
+        "pace": "slow",
+        "arm": "either",
+    }
     assert pour["defaults"] == ["pace", "arm"]
     assert spin["args"]["for"] == {"value": 1.5, "unit": "min"}
     assert (spin["args"]["turns"], spin["args"]["cool"]) == (1, False)

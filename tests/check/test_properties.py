@@ -40,7 +40,9 @@ protocol rich {
   unmapped "centrifuge" because "none"
 }
 """
-PROTOCOLS = {path.name: path.read_text(encoding="utf-8") for path in sorted((ROOT / "protocols").glob("*.xei"))}
+PROTOCOLS = {
+    path.name: path.read_text(encoding="utf-8") for path in sorted((ROOT / "protocols").glob("*.xei"))
+}
 WORDS = sorted(set(re.findall(r'\w+|"[^"]*"|[^\s\w]', RICH + "".join(PROTOCOLS.values()))))
 
 
@@ -81,7 +83,8 @@ numbers = st.integers(1, 10**6).map(lambda n: Fraction(n, 1000))
 @given(numbers, numbers, numbers)
 @settings(deadline=None)
 def test_lets_compute_exactly(a: Fraction, b: Fraction, c: Fraction) -> None:
-    text = f"let x = ({float(a)} mL + {float(b)} uL) * {float(c)} / 2 - {float(b)} uL * 2\nlet t = x / (1 mL / 1 s)\n"
+    text = f"let x = ({float(a)} mL + {float(b)} uL) * {float(c)} / 2 - {float(b)} uL * 2\n"
+    text += "let t = x / (1 mL / 1 s)\n"
     plan, _ = check(protocol(text + "if t > 0 s { wait t } else { wait -t }"))
     assert plan is not None
     expected = (a + b / 1000) * c / 2 - b / 500
@@ -93,10 +96,16 @@ def test_lets_compute_exactly(a: Fraction, b: Fraction, c: Fraction) -> None:
 def test_an_open_parameter_covers_what_it_can_be(low: Fraction, high: Fraction) -> None:
     low, high = sorted((low, high))
     bounds = f"{float(low)} s .. {float(high)} s"
-    text = protocol(f"param t: Time in {bounds}\nlet u = 100 s - t * 2 / 3\nif u < 0 s {{ wait 1 s }} else {{ wait 2 s }}")
+    text = protocol(
+        f"param t: Time in {bounds}\nlet u = 100 s - t * 2 / 3\nif u < 0 s {{ wait 1 s }} else {{ wait 2 s }}"
+    )
     open_plan = plan_of(text, open_bindings=True)
     chosen = {step.arg("duration") for step in open_plan.steps}
     for value in (low, high, (low + high) / 2):
-        shown = str(Quantity(value, quantity(1, "s").dimension, "s")) if value.denominator == 1 else f"{float(value)} s"
+        shown = (
+            str(Quantity(value, quantity(1, "s").dimension, "s"))
+            if value.denominator == 1
+            else f"{float(value)} s"
+        )
         closed = plan_of(text, params={"t": shown})
         assert {step.arg("duration") for step in closed.steps} <= chosen

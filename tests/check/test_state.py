@@ -25,7 +25,7 @@ def test_given_facts_replace_what_the_profile_believes() -> None:
         'given cap(tube_1) == open\ngiven at(tube_1) == rack_2.slot("B2")\ngiven holding(left) == tube_2\n'
         'given cup_1 contains 50 mL of "PBS"\n'
     )
-    facts = before(given + "pick(object=rack_2.slot(\"B2\"))", 0)
+    facts = before(given + 'pick(object=rack_2.slot("B2"))', 0)
     assert facts["cap", "tube_1"] == "open"
     assert facts["at", "tube_1"] == PlaceRef("rack_2", "slot", "B2")
     assert facts["holding", "left"] == ObjectRef("tube_2")
@@ -57,7 +57,9 @@ def test_with_one_arm_full_either_is_the_other() -> None:
 
 
 def test_two_objects_in_unknown_hands() -> None:
-    plan = plan_of(protocol("pick(object=tube_1)\npick(object=tube_2)\nplace(object=tube_1, on=table)\nwait 1 s"))
+    plan = plan_of(
+        protocol("pick(object=tube_1)\npick(object=tube_2)\nplace(object=tube_1, on=table)\nwait 1 s")
+    )
     held = [fact.value for fact in plan.steps[2].state_before if fact.variable == "holding"]
     assert held == [ObjectRef("tube_1"), ObjectRef("tube_2")]
     held = [fact.value for fact in plan.steps[3].state_before if fact.variable == "holding"]

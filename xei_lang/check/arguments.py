@@ -12,7 +12,7 @@ from xei_lang.syntax.ast import Arg, Call
 
 @dataclass(frozen=True, slots=True)
 class Signature:
-    """What can be called: `kind` is `skill` or `procedure`; `rule` is where it was declared, if that is a profile."""
+    """What can be called: `kind` is `skill` or `procedure`; `rule` is its place in a profile, if any."""
 
     kind: str
     name: str
@@ -29,8 +29,8 @@ class Signature:
 def match_arguments(call: Call, signature: Signature, reporter: Reporter) -> Mapping[str, Arg] | None:
     """The arguments of a call by name; None where one that is required is missing.
 
-    Unknown, repeated and nameless arguments are reported too; a nameless one is then taken to be the one that its
-    place suggests, so that its value is checked as well.
+    Unknown, repeated and nameless arguments are reported too; a nameless one is then taken to be the one
+    that its place suggests, so that its value is checked as well.
     """
     found: dict[str, Arg] = {}
     unknown = False

@@ -17,6 +17,7 @@ _BINARY: dict[str, Callable[[Any, Any], Any]] = {
     "*": operator.mul,
     "/": lambda left, right: left / (Fraction(right) if isinstance(right, int) else right),
 }
+_MOST_BITS = 4096
 _ORDER: dict[str, Callable[[Any, Any], bool]] = {
     "<": operator.lt,
     "<=": operator.le,
@@ -27,6 +28,10 @@ _ORDER: dict[str, Callable[[Any, Any], bool]] = {
 }
 
 
+class TooLargeError(ArithmeticError):
+    """A number of so many digits that computing with it would take long."""
+
+
 def is_numeric(value: Val) -> bool:
     """Whether arithmetic can be done with the value."""
     return isinstance(value, (Quantity, int, Fraction, Interval)) and not isinstance(value, bool)
@@ -35,8 +40,9 @@ def is_numeric(value: Val) -> bool:
 def combine(op: str, left: Val, right: Val) -> Val:
     """`left op right` for numeric values.
 
-    Raises DimensionError where the dimensions do not go together, ZeroDivisionError where the divisor is or may be
-    zero. Each occurrence of an open value counts as its own: `v - v` is an interval about zero.
+    Raises DimensionError where the dimensions do not go together, ZeroDivisionError where the divisor is or
+    may be zero, TooLargeError for numbers of absurdly many digits. Each occurrence of an open value counts
+    as its own: `v - v` is an interval about zero.
     """
     if not isinstance(left, Interval) and not isinstance(right, Interval):
         return _apply(op, _numeric(left), _numeric(right))
@@ -56,7 +62,7 @@ def negate(value: Val) -> Val:
 
 
 def compare(op: str, left: Val, right: Val) -> bool | None:
-    """`left op right` for numeric values; None where open values leave it undecided. Raises DimensionError."""
+    """`left op right` for numeric values; None where open values leave it open. Raises DimensionError."""
     if not isinstance(left, Interval) and not isinstance(right, Interval):
         return _ordered(op, _numeric(left), _numeric(right))
     first, second = _as_interval(left), _as_interval(right)
@@ -73,7 +79,11 @@ def _apply(op: str, left: Numeric, right: Numeric) -> Numeric:
             left, right = _lifted(left), _lifted(right)
         elif not isinstance(left, Quantity):
             left = Fraction(left)
-    return number(_BINARY[op](left, right))
+    made = number(_BINARY[op](left, right))
+    exact_value = Fraction(made.value if isinstance(made, Quantity) else made)
+    if max(exact_value.numerator.bit_length(), exact_value.denominator.bit_length()) > _MOST_BITS:
+        raise TooLargeError
+    return made
 
 
 def _ordered(op: str, left: Numeric, right: Numeric) -> bool:

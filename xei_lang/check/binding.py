@@ -40,9 +40,10 @@ _NOTHING: Mapping[str, str] = MappingProxyType({})
 class CheckOptions:
     """How to check.
 
-    `bindings` gives objects (`--bind rack=rack_1`), `params` the text of values (`--param volume="2 mL"`). With
-    `open_bindings`, as in `xei check`, an object without binding is any object with its roles, and a ranged parameter
-    is its whole interval. `sources` are the texts of the profile's files, so that notes can name a rule's line.
+    `bindings` gives objects (`--bind rack=rack_1`), `params` the text of values (`--param volume="2 mL"`).
+    With `open_bindings`, as in `xei check`, an object without binding is any object with its roles, and a
+    ranged parameter is its whole interval. `sources` are the texts of the profile's files, so that notes can name
+    a rule's line.
     """
 
     bindings: Mapping[str, str] = field(default_factory=lambda: _NOTHING)
@@ -147,7 +148,8 @@ class Binder:
         fitting = candidates(node.type, self._registry)
         self._reporter.report(
             "XEI0309",
-            f"{words} {unmet(node.type, thing.roles)}, but object `{node.name.id}` is to be `{text(node.type)}`",
+            f"{words} {unmet(node.type, thing.roles)}, "
+            f"but object `{node.name.id}` is to be `{text(node.type)}`",
             span,
             f"`{name}` has the roles {', '.join(thing.roles) or 'none'}",
             labels=(Label(node.type.span, "declared so here"),),
@@ -224,8 +226,8 @@ class Binder:
         value = self._types.coerce(value, expected, written, state)
         return self.inside(value, limits, node, node.name.span, shown)
 
-    def _read(self, given: str, expected: Expectation) -> Val:
-        """The value that a text of the command line stands for; ValueError or QuantityError where it is none."""
+    def _read(self, given: str, expected: Expectation) -> Val:  # noqa: PLR0911 one return for each type
+        """The value of a text of the command line; raises ValueError or QuantityError where it is none."""
         if expected.lists:
             raise ValueError("a list cannot be given on the command line")
         match expected.type:

@@ -1,4 +1,4 @@
-"""A call against the skill bank: the skill, who performs it, and every argument's type, unit, range and roles."""
+"""A call against the skill bank: its skill and owner, every argument's type, unit, range and roles."""
 
 from __future__ import annotations
 
@@ -58,7 +58,8 @@ class _Prepared:
 class Calls:
     """Checks calls of skills; the contracts are prepared once.
 
-    `procedures` are names that can be called, too; with `imports` there may be more of them than are known here.
+    `procedures` are names that can be called, too; with `imports` there may be more of them than are known
+    here.
     """
 
     def __init__(
@@ -79,7 +80,7 @@ class Calls:
         self._prepared: dict[str, _Prepared] = {}
 
     def check(self, call: Call, scope: Scope, state: State) -> CheckedCall | None:
-        """The call with its arguments resolved as they are at this point of the plan; None where it does not hold."""
+        """The call with its arguments as they are at this point of the plan; None where it does not hold."""
         skill = self._skill(call)
         if skill is None:
             self._look_at_arguments(call, scope)
@@ -278,7 +279,7 @@ def expectation(spec: ArgSpec, skill: str) -> Expectation:
 
 
 def default_of(spec: ArgSpec, registry: Registry) -> Val | None:
-    """The skill bank's own value of an argument; the profile's check has seen to it that it is of its type."""
+    """The skill bank's own value of an argument, of whose type the profile's check has made sure."""
     default = spec.default
     if default is None or isinstance(default, (bool, int, Quantity)):
         return default

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from xei_lang.check.binding import Binder, CheckOptions
+from xei_lang.check.budget import Budget
 from xei_lang.check.calls import Calls
 from xei_lang.check.constraints import Clauses
 from xei_lang.check.evaluate import Evaluator
@@ -44,7 +45,7 @@ def make_context(module: Module, source: Source, profile: Profile, options: Chec
     reporter = Reporter(options.sources)
     places = Places(reporter)
     types = Types(registry, places, reporter)
-    evaluator = Evaluator(registry, places, reporter, options.max_steps)
+    evaluator = Evaluator(registry, places, reporter, Budget(options.max_steps, reporter))
     procedures = [item for item in module.items if isinstance(item, Procedure)]
     names = tuple(item.name.id for item in procedures)
     imports = any(isinstance(item, Import) for item in module.items)

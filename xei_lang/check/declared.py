@@ -40,7 +40,7 @@ def declared_expectation(
 
 
 def known_roles(node: TypeExpr, registry: Registry, reporter: Reporter, also: tuple[str, ...] = ()) -> bool:
-    """Whether every role of an expression is one that objects have; `also` are names to suggest besides roles."""
+    """Whether objects have every role of an expression; `also` are names to suggest besides roles."""
     fine = True
     for part in walk(node):
         if isinstance(part, Role) and part.id not in registry.roles:

@@ -47,7 +47,7 @@ class Effect:
 
 
 def effects_of(skill: SkillSpec) -> tuple[Effect, ...]:
-    """The settings (`:=`) among what a skill ensures; changes of quantities (`+=`, `-=`) belong to state checking."""
+    """The settings (`:=`) among what a skill ensures; changes (`+=`, `-=`) belong to state checking."""
     found: list[Effect] = []
     for rule in skill.ensures:
         update = rule.predicate
@@ -102,10 +102,11 @@ def _value(node: Expression, args: Mapping[str, Value]) -> Value | None:
 
 
 def resources_of(skill: SkillSpec, args: Mapping[str, Value]) -> tuple[str, ...]:
-    """What a step occupies, sorted: `left_arm`, `left_gripper`, `slide`, `base`, `perception`, `io`, `person`.
+    """What a step occupies, sorted: `left_arm`, `left_gripper`, `slide`, `base`, `perception`, `io`,
+    `person`.
 
-    `either_arm` and `either_gripper` stand for those of one arm that is chosen later. A template line that moves the
-    robot without naming an arm occupies all of it.
+    `either_arm` and `either_gripper` stand for those of one arm that is chosen later. A template line that
+    moves the robot without naming an arm occupies all of it.
     """
     found: set[str] = set()
     for line in skill.template:

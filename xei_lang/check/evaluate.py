@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from xei_lang.check import arithmetic
+from xei_lang.check.budget import Budget
 from xei_lang.check.functions import Functions
 from xei_lang.check.lists import Lists
 from xei_lang.check.places import METHODS, PROPERTIES, Places
@@ -54,12 +55,13 @@ ANY_WORD = ("*",)
 class Evaluator:
     """Evaluates expressions in a scope. What is wrong is reported and becomes POISON."""
 
-    def __init__(self, registry: Registry, places: Places, reporter: Reporter, max_items: int) -> None:
+    def __init__(self, registry: Registry, places: Places, reporter: Reporter, budget: Budget) -> None:
         self._registry = registry
         self._places = places
         self._reporter = reporter
-        self.lists = Lists(reporter, self.value, max_items)
-        self._functions = Functions(reporter)
+        self.budget = budget
+        self.lists = Lists(reporter, self.value, budget)
+        self._functions = Functions(reporter, budget)
 
     def value(self, node: Expression | Range, scope: Scope, words: tuple[str, ...] = ()) -> Val:
         """The value of an expression; `words` are the words of an enumeration that may stand here bare."""
@@ -175,6 +177,14 @@ class Evaluator:
         except DimensionError as error:
             text = f"cannot {error.operation} {a(error.left.name)} and {a(error.right.name)}"
             return self._mismatch(node, left, right, text)
+        except arithmetic.TooLargeError:
+            self._reporter.report(
+                "XEI0312",
+                "this number has too many digits",
+                node.span,
+                "no quantity in a laboratory is that large",
+            )
+            return POISON
         except ZeroDivisionError:
             self._reporter.report(
                 "XEI0313", f"`{show(left)}` is divided by zero", node.right.span, f"this is {show(right)}"

@@ -7,6 +7,7 @@ from functools import reduce
 from math import ceil
 
 from xei_lang.check import arithmetic
+from xei_lang.check.budget import Budget
 from xei_lang.check.report import Reporter, meant
 from xei_lang.check.values import POISON, ListValue, Val, a, kind
 from xei_lang.diagnostics import Span, did_you_mean
@@ -43,8 +44,9 @@ def not_yet(reporter: Reporter, words: str, span: Span) -> None:
 class Functions:
     """Calls of functions whose arguments are already values."""
 
-    def __init__(self, reporter: Reporter) -> None:
+    def __init__(self, reporter: Reporter, budget: Budget) -> None:
         self._reporter = reporter
+        self._budget = budget
         self._table: dict[str, Callable[[CallExpr, tuple[Val, ...]], Val]] = {
             "zip": self._zip,
             "len": self._len,
@@ -91,6 +93,8 @@ class Functions:
         if len(lists) < 2 or len(lists) < len(args):
             return self._wrong("`zip` takes two lists or more", node.span)
         lengths = [len(item.items) for item in lists]
+        if not self._budget.spend(sum(lengths), node.span):
+            return POISON
         if len(set(lengths)) > 1:
             self._reporter.report(
                 "XEI0320",
@@ -132,8 +136,12 @@ class Functions:
         if not items or wrong is not None:
             found = "" if wrong is None else f", not {kind(wrong)}"
             return self._wrong(f"this takes numbers or quantities, or a list of them{found}", node.span)
+        if not self._budget.spend(len(items), node.span):
+            return POISON
         try:
             return reduce(step, items)
+        except arithmetic.TooLargeError:
+            return self._wrong("this number has too many digits", node.span)
         except DimensionError as error:
             message = f"cannot {error.operation} {a(error.left.name)} and {a(error.right.name)}"
             self._reporter.report("XEI0312", message, node.span, "these do not go together")

@@ -1,4 +1,4 @@
-"""What is known before the first step: empty hands, and what the profile believes about where things stand."""
+"""What is known before the first step: empty hands, and where the profile believes things to stand."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which steps a label stands for, where it can be seen: in its block, and with turns and dots from outside."""
+"""Which steps a label stands for where it can be seen: in its block, and by turns and dots from outside."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _Frame = dict[tuple[str, str], Found]
 
 
 class Labels:
-    """Labels seen so far, block in block. A key is a label and the rest of the path behind it (`[2].pour`)."""
+    """Labels seen so far, block in block; a key is a label and the rest of the path (`[2].pour`)."""
 
     def __init__(self) -> None:
         self._frames: list[_Frame] = [{}]
@@ -41,7 +41,7 @@ class Labels:
             self._frames[-1][label, mark + rest] = found
 
     def close_named(self, label: str | None, mark: str = "") -> None:
-        """A block with a label, or the body of a procedure, ends; without a label nothing inside can be seen."""
+        """A block with a label, or a procedure's body, ends; without a label nothing inside can be seen."""
         inner = self._frames.pop()
         if label is not None:
             for (name, rest), found in inner.items():

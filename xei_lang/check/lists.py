@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import Protocol, overload
 
 from xei_lang.check import arithmetic
+from xei_lang.check.budget import Budget
 from xei_lang.check.report import Reporter
 from xei_lang.check.scope import Scope
 from xei_lang.check.values import POISON, ListValue, Numeric, Val, kind, nominal, show
@@ -19,7 +20,9 @@ from xei_lang.syntax.ast import Comprehension, Expression, Index, Name, Range
 class Evaluate(Protocol):
     """How a list's parts are evaluated."""
 
-    def __call__(self, node: Expression | Range, scope: Scope) -> Val: ...
+    def __call__(self, node: Expression | Range, scope: Scope) -> Val:
+        """The value of an expression or a range."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,13 +52,13 @@ class Progression(Sequence[Val]):
 class Lists:
     """Evaluates what makes lists and what takes them apart."""
 
-    def __init__(self, reporter: Reporter, evaluate: Evaluate, max_items: int) -> None:
+    def __init__(self, reporter: Reporter, evaluate: Evaluate, budget: Budget) -> None:
         self._reporter = reporter
         self._evaluate = evaluate
-        self._max_items = max_items
+        self._budget = budget
 
     def range(self, node: Range, scope: Scope) -> Val:
-        """`1 .. 8`, `0 mL .. 5 mL step 1 mL`: both ends included; empty where the end lies before the start."""
+        """`1 .. 8`, `0 mL .. 5 mL step 1 mL`: both ends included; empty where they are the wrong way."""
         parts = [nominal(self._evaluate(part, scope)) for part in (node.lower, node.upper)]
         step = 1 if node.step is None else nominal(self._evaluate(node.step, scope))
         if POISON in parts or step is POISON:
@@ -115,6 +118,8 @@ class Lists:
         ends = (which.items[0], which.items[-1]) if which.items else ()
         if any(self._position(end, value, node) is None for end in ends):
             return POISON
+        if not self._budget.spend(len(which.items), node.span):
+            return POISON
         for item in which.items:
             position = self._position(item, value, node)
             if position is None:
@@ -141,7 +146,7 @@ class Lists:
     def comprehension(self, node: Comprehension, scope: Scope) -> Val:
         """`[element for names in list if condition]`."""
         source = self.members(self._evaluate(node.iterable, scope), node.iterable)
-        if source is None or not self.within_bound(len(source), node.span):
+        if source is None or not self._budget.spend(len(source), node.span):
             return POISON
         made: list[Val] = []
         for item in source:
@@ -156,7 +161,7 @@ class Lists:
         return ListValue(tuple(made))
 
     def members(self, value: Val, node: Expression | Range) -> Sequence[Val] | None:
-        """What a loop goes through; None where there is nothing to go through, which is reported if it is new."""
+        """What a loop goes through; None where that is no list, which is reported if it is new."""
         if isinstance(value, ListValue):
             return value.items
         if value is not POISON:
@@ -167,14 +172,6 @@ class Lists:
                 "expected a list or a range such as `1 .. 4`",
             )
         return None
-
-    def within_bound(self, count: int, span: Span) -> bool:
-        """Whether a list is short enough to be made."""
-        if count > self._max_items:
-            self._wrong(
-                "XEI0316", f"this list would have {count} members", span, f"the bound is {self._max_items}"
-            )
-        return count <= self._max_items
 
     def unpack(self, names: tuple[Name, ...], item: Val, scope: Scope, span: Span) -> bool:
         """Give the names of a loop their values for one turn."""

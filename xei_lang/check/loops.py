@@ -67,6 +67,9 @@ def _turns(
     expander.loops.append(loop.span)
     start = len(plan.steps)
     for number, item in enumerate(items, start=1):
+        if not expander.context.evaluator.budget.spend(1, loop.span):
+            plan.full, plan.overflow = True, plan.overflow or loop.span
+            break
         _turn(expander, step, loop, number, item, scope, where)
         made = len(plan.steps) - start
         if number == 1 and start + made * count > plan.max_steps and _regular(expander, loop):
@@ -119,7 +122,7 @@ def _too_many(expander: Expander, loop: For | Repeat, what: str) -> None:
 
 
 def _regular(expander: Expander, loop: For | Repeat) -> bool:
-    """Whether each turn makes as many steps as the first: nothing in the body decides how often by the turn."""
+    """Whether each turn makes as many steps as the first: nothing in the body counts by the turn."""
     names: set[str] = {name.id for name in loop.names} if isinstance(loop, For) else set()
     nodes = list(walk(loop.body))
     names |= {node.name.id for node in nodes if isinstance(node, Let)}

@@ -1,4 +1,4 @@
-"""Checking a whole file: its protocol becomes a plan, and procedures that nothing calls are checked by themselves."""
+"""Checking a whole file: its protocol becomes a plan; procedures that nothing calls are checked alone."""
 
 from __future__ import annotations
 
@@ -44,9 +44,10 @@ def check_module(
 ) -> tuple[SkillPlan | None, Diagnostics]:
     """The plan of the file's protocol, with everything that is wrong with the file in the order of its text.
 
-    There is no plan where there are errors, and none for a file of procedures only, which may be free of errors.
-    With `options.open_bindings` a plan stands for all that may still be bound: an open object appears in it under its
-    name in the protocol, an open parameter with its default or else its lower bound.
+    There is no plan where there are errors, and none for a file of procedures only, which may be free of
+    errors. With `options.open_bindings` a plan stands for all that may still be bound: an open object
+    appears in it under its name in the protocol, an open parameter with its default or else its lower
+    bound.
     """
     context = make_context(module, source, profile, options)
     expander = Expander(context, PlanBuilder(options.max_steps), initial_state(context.registry))

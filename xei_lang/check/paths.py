@@ -1,9 +1,10 @@
 """What each step is called: its label, or its skill and a number, in the block that names it.
 
-A labelled block, and the body of a called procedure, begins a name space of its own (`wash[2].pick#1`, `fill.pour#1`).
-The blocks of loops, choices and `do` without a label belong to the name space around them, where steps are numbered in
-the order of the text. Where two such blocks of one name space use the same label, the later one is told apart by its
-block: `for#2.take`. The two branches of one choice may share a label, since only one of them happens.
+A labelled block, and the body of a called procedure, begins a name space of its own (`wash[2].pick#1`,
+`fill.pour#1`). The blocks of loops, choices and `do` without a label belong to the name space around them,
+where steps are numbered in the order of the text. Where two such blocks of one name space use the same
+label, the later one is told apart by its block: `for#2.take`. The two branches of one choice may share a
+label, since only one of them happens.
 """
 
 from __future__ import annotations

@@ -78,7 +78,8 @@ class Places:
             return PlaceValue(value, "surface", "")
         self._reporter.report(
             "XEI0305",
-            f"`{value.name}` is an object without the role `{SURFACE_ROLE}`, but {expected.what} takes a place",
+            f"`{value.name}` is an object without the role `{SURFACE_ROLE}`, "
+            f"but {expected.what} takes a place",
             node.span,
             "expected a place, such as a slot, a spot or a surface",
             notes=(self._reporter.rule(expected.rule),) if expected.rule else (),

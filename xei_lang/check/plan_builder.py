@@ -18,7 +18,7 @@ _Places = set[tuple[Span, tuple[Call, ...]]]
 class Where:
     """Where in the protocol the checker is.
 
-    `names` are the names of the steps in this name space, `prefix` is the path of the name space with its dot,
+    `names` are the names of the steps in this name space, `prefix` is its path with the dot,
     `indices` are the turns of the loops between it and here; `turn` counts the turns of all loops around.
     """
 
@@ -57,7 +57,8 @@ class Where:
 
 @dataclass(slots=True)
 class PlanBuilder:
-    """Collects a plan. `tails` are the steps that the next one follows; `full` says that the bound was reached.
+    """Collects a plan. `tails` are the steps that the next one follows; `full` says that the bound was
+    reached.
 
     `overflow` is the loop that was reported for it.
     """

@@ -34,7 +34,7 @@ def inline(
     if given is None:
         for arg in call.args:
             expander.context.evaluator.value(arg.value, scope, ANY_WORD)
-        given = {}
+        given = dict[str, Arg]()
     inner = scope.fresh()
     for formal in procedure.params:
         value = _actual(expander, formal, given, procedure, scope, inner)
@@ -118,7 +118,9 @@ def _actual(
 
 
 def _any(expander: Expander, formal: Param, inner: Scope) -> Val:
-    """Any value that a parameter allows: its interval, any object of its roles; POISON for what has no bounds."""
+    """Any value that a parameter allows: its interval, any object of its roles; POISON for what has no
+    bounds.
+    """
     context = expander.context
     expected = declared_expectation(formal.type, f"`{formal.name.id}`", context.registry, context.reporter)
     if expected is None:

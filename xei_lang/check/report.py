@@ -1,8 +1,10 @@
-"""Where the checker puts what it has to say: each mistake once, however often a loop or a call leads past it."""
+"""Where the checker puts what it has to say: each mistake once, however often a loop or a call leads past
+it.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator
 from contextlib import contextmanager
 
 from xei_lang.diagnostics import Diagnostic, Diagnostics, Edit, Fix, Label, Sources, Span
@@ -41,7 +43,8 @@ class Reporter:
     ) -> None:
         """Keep a diagnostic, unless the same code was reported at the same place.
 
-        `about` tells apart what is rightly said twice of one place, such as two wrong options of the command line.
+        `about` tells apart what is rightly said twice of one place, such as two wrong options of the
+        command line.
         """
         key = (span, code, about)
         if key not in self._found:
@@ -51,13 +54,15 @@ class Reporter:
             self._found[key] = Diagnostic(code, message, span, label, labels + chain, notes, help, fix)
 
     def rule(self, span: Span) -> str:
-        """The note that says which line of a profile makes the rule; only the file where its text is not at hand."""
+        """The note that says which line of a profile makes the rule; only the file where its text is not at
+        hand.
+        """
         source = self._sources.get(span.file)
         place = f"{span.file}:{source.line_number(span.start)}" if source else span.file
         return f"rule: {place}"
 
     @contextmanager
-    def inside(self, call: Call) -> Iterator[None]:
+    def inside(self, call: Call) -> Generator[None]:
         """While the body of a called procedure is checked."""
         before = self.calls
         self.calls = (*before, call)

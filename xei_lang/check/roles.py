@@ -1,4 +1,6 @@
-"""Role expressions: what an object must be (`movable & liquid_container`, `surface | place_target`, `not fragile`)."""
+"""Role expressions: what an object must be (`movable & liquid_container`, `surface | place_target`, `not
+fragile`).
+"""
 
 from __future__ import annotations
 
@@ -80,10 +82,11 @@ def candidates(expression: TypeExpr, registry: Registry) -> tuple[str, ...]:
 
 
 def first_misfit(value: ObjectValue, needed: TypeExpr, registry: Registry) -> LabObject | None:
-    """The object that fails: the registered one, or for an open one a candidate that would be without the roles.
+    """The object that fails: the registered one, or for an open one a candidate that would be without the
+    roles.
 
-    None says that all is well: either the declared roles imply the needed ones, or every object that may still be
-    bound has them.
+    None says that all is well: either the declared roles imply the needed ones, or every object that may
+    still be bound has them.
     """
     if value.registered is not None:
         return None if fits(needed, value.registered.roles) else value.registered
@@ -100,7 +103,9 @@ def first_misfit(value: ObjectValue, needed: TypeExpr, registry: Registry) -> La
 
 
 def implies(left: TypeExpr, right: TypeExpr) -> bool:
-    """Whether whatever has the roles `left` must have the roles `right`; False where there are too many to tell."""
+    """Whether whatever has the roles `left` must have the roles `right`; False where there are too many to
+    tell.
+    """
     names = sorted({*role_names(left), *role_names(right)})
     if len(names) > _MOST_FREE_ROLES:
         return False

@@ -1,7 +1,8 @@
 """What is known at each point of the plan: a forward walk over what skills say they bring about.
 
 Only facts are kept here, none are judged. With `arm=either` it is not known which arm holds the object: then
-`holding(either)` is a fact, and those of the arms that it could be are withdrawn until the object is put down.
+`holding(either)` is a fact, and those of the arms that it could be are withdrawn until the object is put
+down.
 """
 
 from __future__ import annotations
@@ -95,7 +96,9 @@ class State:
                 self._put("holding", holder, NOTHING)
 
     def holder(self, name: str) -> str | None:
-        """The arm that has an object, `either` where only that is known, None where no arm is known to have it."""
+        """The arm that has an object, `either` where only that is known, None where no arm is known to have
+        it.
+        """
         if name in self._in_either:
             return EITHER
         return next((arm for arm in self._arms if self.get("holding", arm) == ObjectRef(name)), None)

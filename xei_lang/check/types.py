@@ -25,13 +25,15 @@ from xei_lang.check.values import (
     show,
     show_place,
 )
+from xei_lang.diagnostics import Applicability
 from xei_lang.ir.skill_plan import StationRef
 from xei_lang.quantity import TYPE_DIMENSIONS, UNITS, Quantity, quantity
 from xei_lang.quantity.dimension import NUMBER, Dimension
 from xei_lang.syntax.ast import Expression, QuantityLit, StringLit
 
 VALUE_TYPES = (*TYPE_DIMENSIONS, "Int", "Float", "Bool", "String", "Arm", "Place", "Station")
-"""The types that a parameter may have besides role expressions; `Pose` and tables come with later versions."""
+"""The types that a parameter may have besides role expressions; `Pose` and tables come with later versions.
+"""
 
 ANY_ARM = "either"
 
@@ -45,7 +47,9 @@ class Types:
         self._reporter = reporter
 
     def coerce(self, value: Val, expected: Expectation, node: Expression, state: State) -> Val:
-        """The value as the expected type has it: a place where an object is expected is its occupant in `state`."""
+        """The value as the expected type has it: a place where an object is expected is its occupant in
+        `state`.
+        """
         if isinstance(value, Poison):
             return POISON
         if expected.lists:
@@ -234,7 +238,9 @@ _MORE_CONFUSED = (
 
 
 def _mended_unit(node: Expression, dimensions: tuple[Dimension, ...]) -> str | None:
-    """The literal with the unit that a hand writes for the one that is needed; None where there is no such unit."""
+    """The literal with the unit that a hand writes for the one that is needed; None where there is no such
+    unit.
+    """
     if not isinstance(node, QuantityLit):
         return None
     for written, better in (*_CONFUSED_UNITS, *_MORE_CONFUSED):
@@ -243,5 +249,5 @@ def _mended_unit(node: Expression, dimensions: tuple[Dimension, ...]) -> str | N
     return None
 
 
-def _applicability(node: Expression) -> str:
+def _applicability(node: Expression) -> Applicability:
     return "safe" if isinstance(node, QuantityLit) and node.value.unit == "g" else "unsafe"

@@ -1,4 +1,6 @@
-"""Constructs of the language that this version reads but does not compile: each refused at its keyword, by its name."""
+"""Constructs of the language that this version reads but does not compile: each refused at its keyword, by
+its name.
+"""
 
 from __future__ import annotations
 

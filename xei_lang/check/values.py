@@ -1,7 +1,8 @@
 """What an expression can be worth while a protocol is checked.
 
-Everything is decided here and now, but for two kinds: an `Interval` (a ranged parameter that is still open) and
-`POISON` (something wrong that was reported already, or open without bounds), which fits everywhere and says nothing.
+Everything is decided here and now, but for two kinds: an `Interval` (a ranged parameter that is still open)
+and `POISON` (something wrong that was reported already, or open without bounds), which fits everywhere and
+says nothing.
 """
 
 from __future__ import annotations
@@ -33,7 +34,9 @@ Numeric = Quantity | int | Fraction
 
 @dataclass(frozen=True, slots=True)
 class Interval:
-    """A value of which only the bounds are known, ends included; `nominal` stands for it where one is needed."""
+    """A value of which only the bounds are known, ends included; `nominal` stands for it where one is
+    needed.
+    """
 
     lower: Numeric
     upper: Numeric

@@ -15,9 +15,10 @@ from xei_lang.ir.skill_plan import Fact, SkillPlan, Step, TimeConstraint
 def verify_plan(plan: SkillPlan) -> tuple[str, ...]:
     """Every problem of the plan, in the order of its steps; empty for a sound one.
 
-    Checked: unique, non-empty step ids; `after` names earlier steps only (so there is no cycle), each once; a skill
-    has a name and an owner, arguments are named once; durations are ordered and not negative; turns count from 1;
-    facts are sorted and said once; constraints, notes and unmapped requests name steps of the plan.
+    Checked: unique, non-empty step ids; `after` names earlier steps only (so there is no cycle), each once;
+    a skill has a name and an owner, arguments are named once; durations are ordered and not negative; turns
+    count from 1; facts are sorted and said once; constraints, notes and unmapped requests name steps of the
+    plan.
     """
     problems: list[str] = []
     seen: set[str] = set()

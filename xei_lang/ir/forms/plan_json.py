@@ -7,8 +7,8 @@ Values are written as somebody who reads the plan with another program wants the
 - a place is its text in a protocol, `"rack_2.slot(\\"A1\\")"`, and for a whole surface the object's name;
 - numbers, truth values and texts are those of JSON, a list is an array.
 
-Every step is in `skill_calls`, in the order of the text; one that calls no skill has its kind as `skill` (`wait`,
-`confirm`). A bound on time without an upper end has `null` there. Lines count from 1.
+Every step is in `skill_calls`, in the order of the text; one that calls no skill has its kind as `skill`
+(`wait`, `confirm`). A bound on time without an upper end has `null` there. Lines count from 1.
 """
 
 from __future__ import annotations
@@ -35,7 +35,9 @@ from xei_lang.quantity import Quantity
 
 
 def to_json(plan: SkillPlan, sources: Sources) -> dict[str, Json]:
-    """The whole plan. `sources` hold the protocol's text, for its lines; a span of another file has line `null`."""
+    """The whole plan. `sources` hold the protocol's text, for its lines; a span of another file has line
+    `null`.
+    """
     return {
         "version": 1,
         "protocol": plan.protocol,
