@@ -133,6 +133,25 @@ def test_the_straight_arm_is_solved(robot: Robot, solvers: dict[Side, Solver]) -
         assert np.abs(found.q[:, 3]).max() < 1e-6
 
 
+@pytest.mark.parametrize("side", SIDES)
+def test_a_shoulder_with_its_outer_axes_in_line_is_solved_up_to_its_limits(
+    robot: Robot, solvers: dict[Side, Solver], side: Side
+) -> None:
+    """Only the sum of joints 1 and 3 is fixed there: it must be shared so that both stay within limits."""
+    geometry = srs_geometry(robot, side)
+    assert geometry is not None
+    q = robot.configuration("home")
+    span = robot.arm(side).span
+    for first, third in ((0.01, 0.01), (0.99, 0.5), (0.99, 0.99), (0.01, 0.99), (0.5, 0.5)):
+        shares = np.array([first, 0.5, third, 0.5, 0.5, 0.5, 0.5])
+        q_arm = robot.lower[span] + shares * (robot.upper - robot.lower)[span]
+        q_arm[1] = -geometry.shoulder_joint.offset
+        T = pose_of(robot, side, q, q_arm)
+        back = solvers[side].at(T, 0.0, *solvers[side].describe(q_arm))
+        assert back is not None
+        assert np.abs(pose_of(robot, side, q, back) - T).max() < 1e-9
+
+
 def test_out_of_reach_has_no_configuration_and_tells_by_how_much(
     robot: Robot, solvers: dict[Side, Solver]
 ) -> None:

@@ -10,8 +10,8 @@ A branch is a bit set: 1 the shoulder's middle joint flipped, 2 the wrist's, 4 t
 limits leave only some. Singular cases: with the arm straight the swivel turns the whole arm and stays well
 defined, since it is told by the hinge and not by the elbow's place. With the wrist on the first axis the
 angle is measured from another fixed direction. With a spherical joint's outer axes in line only the sum of
-their angles is fixed; the solution returned is one of many. Feasible intervals narrower than rounding (1e-12
-rad) may be missed.
+their angles is fixed; it is shared in proportion to their spans, within limits whenever any share is.
+Feasible intervals narrower than rounding (1e-12 rad) may be missed.
 """
 
 from __future__ import annotations

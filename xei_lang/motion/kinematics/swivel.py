@@ -21,6 +21,7 @@ from xei_lang.motion.robot import Array
 Mask = NDArray[np.bool_]
 TWO_PI = 2.0 * np.pi
 ANGLE_TOLERANCE = 1e-10
+_IN_LINE = 1e-10
 
 # Entries of M = Rz(q1) Ry(t) Rz(q3) in the order that this file keeps them; the first five tell where
 # limits are met.
@@ -94,8 +95,8 @@ def wrapped(angle: Array) -> Array:
 def joint_angles(coefficients: Array, swivel_angle: Array, flips: Array, bounds: Limits) -> Array:
     """Joint angles (n, ..., 2, f, 3) at swivel angles (n, ...) of shoulder and wrist, one row for each flip.
 
-    coefficients: (n, ..., 3, 2, 9) as `entries` gives them. flips: broadcast to (..., 2, f), the sign of sin(q2 +
-    offset). Each angle is the representative nearest to the middle of its limits.
+    coefficients: (n, ..., 3, 2, 9) as `entries` gives them. flips: broadcast to (..., 2, f), the sign of
+    sin(q2 + offset). Each angle is the representative nearest to the middle of its limits.
     """
     values = np.cos(swivel_angle)[..., None, None] * coefficients[..., 1, :, :]
     values += np.sin(swivel_angle)[..., None, None] * coefficients[..., 2, :, :]
@@ -105,6 +106,9 @@ def joint_angles(coefficients: Array, swivel_angle: Array, flips: Array, bounds:
     result = np.empty((*values.shape[:-1], flips.shape[-1], 3))
     np.arctan2(flips * m12, flips * m02, out=result[..., 0])
     np.arctan2(flips * size, m22, out=result[..., 1])
+    if size.min(initial=1.0) < _IN_LINE:
+        shared = _shared_first_angle(m22, m00, m10, bounds)
+        result[..., 0] = np.where(size < _IN_LINE, shared, result[..., 0])
     # The third angle follows from the first, not from M20 and M21: where the outer axes come in line these
     # are all rounding, and the sum of the two angles would be too.
     cosine, sine = np.cos(result[..., 0]), np.sin(result[..., 0])
@@ -114,6 +118,18 @@ def joint_angles(coefficients: Array, swivel_angle: Array, flips: Array, bounds:
     result -= TWO_PI * np.rint(result / TWO_PI)
     result += bounds.middle
     return result
+
+
+def _shared_first_angle(m22: Array, m00: Array, m10: Array, bounds: Limits) -> Array:
+    """The first angle where the outer axes are in line, so that only the sum or difference of both is fixed.
+
+    Both leave the middles of their limits in proportion to their spans: within limits whenever any choice is.
+    """
+    sign = np.where(m22 < 0.0, -1.0, 1.0)
+    spans = bounds.upper - bounds.lower
+    first, third = bounds.middle[..., 0], bounds.middle[..., 2]
+    excess = wrapped(np.arctan2(sign * m10, sign * m00) - first - sign * third)
+    return first + excess * spans[..., 0] / (spans[..., 0] + spans[..., 2])
 
 
 def within(angles: Array, bounds: Limits) -> Mask:
