@@ -1,7 +1,8 @@
 """Structural verifier of a TimedPlan: what must hold before anybody can ask whether the motion is good.
 
-Numbers are finite; lengths fit; knots are in order; goals are sorted by start, have unique ids, end after they start,
-and no two share a resource or a joint at one time. Whether the motion keeps its limits is for `motion/verify`.
+Numbers are finite; lengths fit; knots are in order; goals are sorted by start, have unique ids, end after
+they start, and no two share a resource or a joint at one time. Whether the motion keeps its limits is for
+`motion/verify`.
 """
 
 from __future__ import annotations
@@ -124,7 +125,9 @@ def _plan_faults(plan: TimedPlan) -> Iterator[TimedProblem]:
             yield _of_plan("structure", name, f"a joint stands twice in `{name}`")
     last = max((goal.end_s for goal in plan.goals), default=0.0)
     if abs(plan.duration_s - last) > TIME_TOLERANCE_S:
-        yield _of_plan("structure", "duration_s", f"lasts {plan.duration_s:.6g} s, its last goal {last:.6g} s")
+        yield _of_plan(
+            "structure", "duration_s", f"lasts {plan.duration_s:.6g} s, its last goal {last:.6g} s"
+        )
 
 
 def _goal_faults(goal: TimedGoal, limited: set[str]) -> Iterator[tuple[str, str]]:
@@ -192,9 +195,7 @@ def _schedule_faults(plan: TimedPlan) -> Iterator[TimedProblem]:
             yield _of_goal("schedule", goal, goal.id, "goals are not sorted by start")
         before = goal.start_s
         if goal.end_s < goal.start_s or goal.start_s < 0.0:
-            yield _of_goal(
-                "schedule", goal, goal.id, f"runs from {goal.start_s:.6g} s to {goal.end_s:.6g} s"
-            )
+            yield _of_goal("schedule", goal, goal.id, f"runs from {goal.start_s:.6g} s to {goal.end_s:.6g} s")
             continue
         for name in dict.fromkeys((goal.resource, *goal.resources, *(f"joint {j}" for j in goal.joints))):
             free_s, holder = busy.get(name, (-math.inf, ""))

@@ -1,8 +1,10 @@
-"""Seeded faults in good plans. Each is a real violation by construction; the verifier takes no part in making it.
+"""Seeded faults in good plans. Each is a real violation by construction; the verifier takes no part in
+making it.
 
-`inject(plan, graph, world, robot, seed)` works on any TimedPlan. What makes a fault real stands in each maker's docstring.
-Where a check is needed (a touch, a torque, a tool's error) it is pinocchio's or coal's own, or a plain scan over angles.
-Knots that are changed are sampled again, so that a fault shows in one way only.
+`inject(plan, graph, world, robot, seed)` works on any TimedPlan. What makes a fault real stands in each
+maker's docstring. Where a check is needed (a touch, a torque, a tool's error) it is pinocchio's or coal's
+own, or a plain scan over angles. Knots that are changed are sampled again, so that a fault shows in one way
+only.
 """
 
 from __future__ import annotations
@@ -26,7 +28,8 @@ from xei_lang.motion.verify import FindingKind, RobotDescription
 
 @dataclass(frozen=True)
 class Fault:
-    """A faulty plan with the kind that must be found; touches and payloads change the world instead of the plan."""
+    """A faulty plan with the kind that must be found; touches and payloads change the world instead of the
+    plan."""
 
     name: str
     kind: FindingKind
@@ -72,7 +75,9 @@ class Bench:
         goals.sort(key=lambda item: item.start_s)
         return replace(self.plan, goals=tuple(goals), duration_s=max(item.end_s for item in goals))
 
-    def fault(self, name: str, kind: FindingKind, plan: TimedPlan | None = None, world: World | None = None) -> Fault:
+    def fault(
+        self, name: str, kind: FindingKind, plan: TimedPlan | None = None, world: World | None = None
+    ) -> Fault:
         return Fault(name, kind, plan or self.plan, self.graph, world or self.world)
 
 
@@ -82,7 +87,8 @@ _ARMS: dict[str, Arm] = {}
 def inject(
     plan: TimedPlan, graph: MotionGoalGraph, world: World, robot: RobotDescription, seed: int
 ) -> Fault:
-    """One fault of the class `seed` counts to; where the plan has no place for that class, of the next one that fits."""
+    """One fault of the class `seed` counts to; where the plan has no place for that class, of the next one
+    that fits."""
     arm = _ARMS.setdefault(robot.urdf_text, Arm(robot.urdf_text))
     for step in range(len(MAKERS)):
         maker = MAKERS[(seed + step) % len(MAKERS)]
@@ -125,7 +131,8 @@ def add_polynomial(knots: Knots, joint: int, powers: list[float]) -> Knots:
 
 
 def bump(knots: Knots, joint: int, height: float) -> Knots:
-    """Lift one joint's path in its middle by `height`, ends and their slopes as they were: `64 s^3 (1 - s)^3`."""
+    """Lift one joint's path in its middle by `height`, ends and their slopes as they were: `64 s^3 (1 -
+    s)^3`."""
     return add_polynomial(knots, joint, [0, 0, 0, 64 * height, -192 * height, 192 * height, -64 * height])
 
 
@@ -163,7 +170,8 @@ def probe(knots: Knots, count: int = 60) -> list[tuple[float, np.ndarray, np.nda
 
 
 def position_limit(bench: Bench) -> Fault | None:
-    """A bump takes the joint past its bound in the middle of its path: middle value + height = bound + excess."""
+    """A bump takes the joint past its bound in the middle of its path: middle value + height = bound +
+    excess."""
     goal = bench.random.choice(bench.moving)
     assert goal.knots is not None
     column = bench.random.randrange(len(goal.joints))
@@ -171,11 +179,16 @@ def position_limit(bench: Bench) -> Fault | None:
     value = float(evaluate(goal.knots, middle_time(goal.knots))[0][column])
     up = bench.random.random() < 0.5
     height = limit.upper + excess - value if up else limit.lower - excess - value
-    return bench.fault("position limit passed", "position", bench.with_goal(resampled(goal, bump(goal.knots, column, height))))
+    return bench.fault(
+        "position limit passed",
+        "position",
+        bench.with_goal(resampled(goal, bump(goal.knots, column, height))),
+    )
 
 
 def velocity_limit(bench: Bench) -> Fault | None:
-    """The motion runs k times as fast, so each velocity is k times as large: k takes the fastest probe past its limit."""
+    """The motion runs k times as fast, so each velocity is k times as large: k takes the fastest probe past
+    its limit."""
     goal = bench.random.choice(bench.moving)
     assert goal.knots is not None
     action = bench.planned(goal).action
@@ -189,8 +202,9 @@ def velocity_limit(bench: Bench) -> Fault | None:
 
 
 def acceleration_spike(bench: Bench) -> Fault | None:
-    """A doublet +D, -D, +D (lengths 1, 2, 1) in the path's acceleration, which leaves `s` and `ds` behind it as they were.
-    At its start the joint's acceleration is `a0 + q' D`, with D chosen so that this passes the limit."""
+    """A doublet +D, -D, +D (lengths 1, 2, 1) in the path's acceleration, which leaves `s` and `ds` behind it
+    as they were. At its start the joint's acceleration is `a0 + q' D`, with D chosen so that this passes the
+    limit."""
     goal = bench.random.choice(bench.moving)
     knots = goal.knots
     assert knots is not None
@@ -214,7 +228,12 @@ def acceleration_spike(bench: Bench) -> Fault | None:
 
 def split(knots: Knots, i: int, parts: list[tuple[float, float]]) -> Knots:
     """Interval i cut into parts (length, added path acceleration) and what is left of it."""
-    times, s, ds, dds = list(knots.times_s[: i + 1]), list(knots.s[: i + 1]), list(knots.ds[: i + 1]), list(knots.dds[:i])
+    times, s, ds, dds = (
+        list(knots.times_s[: i + 1]),
+        list(knots.s[: i + 1]),
+        list(knots.ds[: i + 1]),
+        list(knots.dds[:i]),
+    )
     for length, added in parts:
         pull = knots.dds[i] + added
         dds.append(pull)
@@ -227,8 +246,18 @@ def split(knots: Knots, i: int, parts: list[tuple[float, float]]) -> Knots:
 
 
 def torque_by_speed(bench: Bench) -> Fault | None:
-    """The motion of empty hands runs faster until pinocchio's own inverse dynamics asks more than the limit of a joint."""
-    goals = [goal for goal in bench.moving if not goal.attached and not any(o.attached for o in bench.plan.goals if o.id != goal.id and o.start_s < goal.end_s and o.end_s > goal.start_s)]
+    """The motion of empty hands runs faster until pinocchio's own inverse dynamics asks more than the limit
+    of a joint."""
+    goals = [
+        goal
+        for goal in bench.moving
+        if not goal.attached
+        and not any(
+            o.attached
+            for o in bench.plan.goals
+            if o.id != goal.id and o.start_s < goal.end_s and o.end_s > goal.start_s
+        )
+    ]
     held = bench.plan.goals and any(goal.attached for goal in bench.plan.goals)
     first_held = min((goal.start_s for goal in bench.plan.goals if goal.attached), default=math.inf)
     goals = [goal for goal in goals if not held or goal.end_s <= first_held]
@@ -260,8 +289,8 @@ def _mimic(arm: Arm, rates: np.ndarray) -> None:
 
 
 def torque_by_payload(bench: Bench) -> Fault | None:
-    """The held object weighs so much that its weight alone, through the Jacobian at the goal's start (where the arm stands),
-    asks three times the limit of a joint plus what the arm itself needs."""
+    """The held object weighs so much that its weight alone, through the Jacobian at the goal's start (where
+    the arm stands), asks three times the limit of a joint plus what the arm itself needs."""
     goals = [goal for goal in bench.moving if goal.attached]
     if not goals:
         return None
@@ -277,7 +306,12 @@ def torque_by_payload(bench: Bench) -> Fault | None:
     center = (item.T_link_object @ Pose((0.0, 0.0, found.size_m[2] / 2))).position_m
     arm_to = link.rotation @ np.array(center)
     lift = 9.81 * (jacobian[2] + arm_to[1] * jacobian[3] - arm_to[0] * jacobian[4])
-    limits = np.array([bench.limit(name).torque if any(x.joint == name for x in bench.plan.limits) else np.inf for name in bench.arm.names])
+    limits = np.array(
+        [
+            bench.limit(name).torque if any(x.joint == name for x in bench.plan.limits) else np.inf
+            for name in bench.arm.names
+        ]
+    )
     with np.errstate(divide="ignore"):
         masses = (3.0 * limits + np.abs(own)) / np.abs(lift)
     mass = float(masses.min()) * bench.random.uniform(1.0, 3.0)
@@ -286,13 +320,17 @@ def torque_by_payload(bench: Bench) -> Fault | None:
 
 
 def jump_inside(bench: Bench) -> Fault | None:
-    """From a break in the path's middle on, one joint is shifted: left and right of the break differ by the shift."""
+    """From a break in the path's middle on, one joint is shifted: left and right of the break differ by the
+    shift."""
     goal = bench.random.choice(bench.moving)
     knots = goal.knots
     assert knots is not None
     if len(knots.coefficients) < 2:
         knots = cut_path(knots)
-    column, piece = bench.random.randrange(len(goal.joints)), bench.random.randrange(1, len(knots.coefficients))
+    column, piece = (
+        bench.random.randrange(len(goal.joints)),
+        bench.random.randrange(1, len(knots.coefficients)),
+    )
     shift = 10 ** bench.random.uniform(-4, -1) * bench.random.choice([1, -1])
     pieces = [
         shifted(rows, column, shift) if k >= piece else rows for k, rows in enumerate(knots.coefficients)
@@ -309,7 +347,9 @@ def cut_path(knots: Knots) -> Knots:
         sum(math.comb(k, j) * cut ** (k - j) * rows[k] for k in range(j, len(rows))) for j in range(len(rows))
     ]
     pieces = (knots.coefficients[0], tuple(tuple(map(float, row)) for row in second))
-    return replace(knots, breaks=(knots.breaks[0], knots.breaks[0] + cut, knots.breaks[1]), coefficients=pieces)
+    return replace(
+        knots, breaks=(knots.breaks[0], knots.breaks[0] + cut, knots.breaks[1]), coefficients=pieces
+    )
 
 
 def shifted(piece: tuple[tuple[float, ...], ...], column: int, shift: float) -> tuple[tuple[float, ...], ...]:
@@ -319,7 +359,8 @@ def shifted(piece: tuple[tuple[float, ...], ...], column: int, shift: float) -> 
 
 
 def jump_between(bench: Bench) -> Fault | None:
-    """A goal that is not its joint's first is shifted as a whole, so it starts where the joint does not stand."""
+    """A goal that is not its joint's first is shifted as a whole, so it starts where the joint does not
+    stand."""
     return _shift_goal(bench, first=False)
 
 
@@ -374,8 +415,9 @@ def still_moving(bench: Bench) -> Fault | None:
 
 
 def wrong_goal(bench: Bench) -> Fault | None:
-    """The last joint value is off by more than the tolerance; for a tool, a scan over all members and turns of the reference
-    (half a degree apart) finds none within one and a half tolerances of position or rotation."""
+    """The last joint value is off by more than the tolerance; for a tool, a scan over all members and turns
+    of the reference (half a degree apart) finds none within one and a half tolerances of position or
+    rotation."""
     goal = bench.random.choice(bench.moving)
     assert goal.knots is not None
     column = bench.random.randrange(len(goal.joints))
@@ -415,7 +457,8 @@ def _misses(bench: Bench, target: ToolTarget, tool: Pose) -> bool:
 
 
 def crooked_line(bench: Bench) -> Fault | None:
-    """A bump moves the tool, half way, more than 2.5 mm from the line between its ends (pinocchio's kinematics)."""
+    """A bump moves the tool, half way, more than 2.5 mm from the line between its ends (pinocchio's
+    kinematics)."""
     lines = [
         goal
         for goal in bench.moving
@@ -446,8 +489,8 @@ def crooked_line(bench: Bench) -> Fault | None:
 
 
 def object_in_path(bench: Bench) -> Fault | None:
-    """An object that nobody holds or may touch is put where a shape of a moving link passes, centre on centre: two convex
-    shapes that share a point overlap."""
+    """An object that nobody holds or may touch is put where a shape of a moving link passes, centre on
+    centre: two convex shapes that share a point overlap."""
     free = _free_objects(bench)
     if not free:
         return None
@@ -467,19 +510,26 @@ def object_in_path(bench: Bench) -> Fault | None:
     T_base_shape = Pose(tuple(map(float, point)))
     T_world_object = _base(bench, goal) @ T_base_shape @ item.geometry[0].T_object_shape.inverse()
     T_frame_object = bench.world.T_world_frame(item.frame_id).inverse() @ T_world_object
-    objects = tuple(replace(o, T_frame_object=T_frame_object) if o.name == item.name else o for o in bench.world.objects)
+    objects = tuple(
+        replace(o, T_frame_object=T_frame_object) if o.name == item.name else o for o in bench.world.objects
+    )
     return bench.fault("object in the path", "collision", world=replace(bench.world, objects=objects))
 
 
 def path_into_body(bench: Bench) -> Fault | None:
-    """A bump bends the path, half way, at least 2 mm deep (coal) into an object that nobody holds or may touch."""
+    """A bump bends the path, half way, at least 2 mm deep (coal) into an object that nobody holds or may
+    touch."""
     free = _free_objects(bench)
     goal = bench.random.choice(bench.moving)
     assert goal.knots is not None
     geometry = _geometry(bench)
     data = geometry.createData()
     joints = {bench.arm.names.index(joint) + 1 for joint in goal.joints}
-    moved = [k for k, s in enumerate(geometry.geometryObjects) if joints.intersection(bench.arm.model.supports[s.parentJoint])]
+    moved = [
+        k
+        for k, s in enumerate(geometry.geometryObjects)
+        if joints.intersection(bench.arm.model.supports[s.parentJoint])
+    ]
     T_base_world = _base(bench, goal).inverse()
     for _ in range(40):
         column, height = bench.random.randrange(len(goal.joints)), bench.random.uniform(-1.2, 1.2)
@@ -490,14 +540,18 @@ def path_into_body(bench: Bench) -> Fault | None:
             T_base_object = T_base_world @ bench.world.T_world_object(item.name)
             for primitive in item.geometry:
                 pose = _se3(T_base_object @ primitive.T_object_shape)
-                if any(_depth(geometry.geometryObjects[k].geometry, data.oMg[k], _coal(primitive.shape), pose) < -2e-3 for k in moved):
+                if any(
+                    _depth(geometry.geometryObjects[k].geometry, data.oMg[k], _coal(primitive.shape), pose)
+                    < -2e-3
+                    for k in moved
+                ):
                     return bench.fault("path into a body", "collision", plan)
     return None
 
 
 def contact_not_allowed(bench: Bench) -> Fault | None:
-    """The allowed contact of a held object with what it stands in is taken away from a goal that moves the object, where coal
-    finds the two at least 0.1 mm in each other as the goal starts or ends."""
+    """The allowed contact of a held object with what it stands in is taken away from a goal that moves the
+    object, where coal finds the two at least 0.1 mm in each other as the goal starts or ends."""
     choices = []
     held = {item.object for goal in bench.plan.goals for item in goal.attached}
     for goal in (goal for goal in bench.moving if _carries(bench, goal)):
@@ -521,7 +575,9 @@ def contact_not_allowed(bench: Bench) -> Fault | None:
         )  # fmt: skip
         if deep:
             kept = tuple(p for p in goal.allowed_contacts if p != pair)
-            return bench.fault("contact not allowed", "collision", bench.with_goal(replace(goal, allowed_contacts=kept)))
+            return bench.fault(
+                "contact not allowed", "collision", bench.with_goal(replace(goal, allowed_contacts=kept))
+            )
     return None
 
 
@@ -567,7 +623,9 @@ def false_samples(bench: Bench) -> Fault | None:
     samples, limits = goal.samples, bench.limit(goal.joints[0])
     assert samples is not None
     row, column = bench.random.randrange(len(samples.times_s)), bench.random.randrange(len(goal.joints))
-    field, off = bench.random.choice([("positions", 1e-3), ("velocities", 0.05), ("accelerations", 4 * limits.acceleration)])
+    field, off = bench.random.choice(
+        [("positions", 1e-3), ("velocities", 0.05), ("accelerations", 4 * limits.acceleration)]
+    )
     rows = [list(values) for values in getattr(samples, field)]
     rows[row][column] += off * bench.random.choice([1, -1])
     changed = replace(samples, **{field: tuple(map(tuple, rows))})
@@ -586,7 +644,10 @@ def dropped_object(bench: Bench) -> Fault | None:
 def _carries(bench: Bench, goal: TimedGoal) -> bool:
     model = bench.arm.model
     joints = {bench.arm.names.index(joint) + 1 for joint in goal.joints}
-    return all(joints.intersection(model.supports[model.frames[model.getFrameId(i.link)].parentJoint]) for i in goal.attached)
+    return all(
+        joints.intersection(model.supports[model.frames[model.getFrameId(i.link)].parentJoint])
+        for i in goal.attached
+    )
 
 
 def moved_in_hand(bench: Bench) -> Fault | None:
@@ -598,7 +659,11 @@ def moved_in_hand(bench: Bench) -> Fault | None:
     item = goal.attached[0]
     shift = Pose(tuple(bench.random.choice([1, -1]) * bench.random.uniform(0.004, 0.05) for _ in range(3)))
     moved = replace(item, T_link_object=item.T_link_object @ shift)
-    return bench.fault("object moved in the hand", "attachment", bench.with_goal(replace(goal, attached=(moved, *goal.attached[1:]))))
+    return bench.fault(
+        "object moved in the hand",
+        "attachment",
+        bench.with_goal(replace(goal, attached=(moved, *goal.attached[1:]))),
+    )
 
 
 def held_from_nowhere(bench: Bench) -> Fault | None:
@@ -616,14 +681,19 @@ def held_from_nowhere(bench: Bench) -> Fault | None:
 
 
 def wrong_place(bench: Bench) -> Fault | None:
-    """A detach states a pose at least 4 mm from where the hand was (a good plan states that within its tolerance of 2 mm)."""
+    """A detach states a pose at least 4 mm from where the hand was (a good plan states that within its
+    tolerance of 2 mm)."""
     goals = [goal for goal in bench.plan.goals if goal.placed]
     if not goals:
         return None
     goal = bench.random.choice(goals)
     shift = Pose(tuple(bench.random.choice([1, -1]) * bench.random.uniform(0.004, 0.05) for _ in range(3)))
     placed = replace(goal.placed[0], T_base_object=shift @ goal.placed[0].T_base_object)
-    return bench.fault("left in a wrong place", "placement", bench.with_goal(replace(goal, placed=(placed, *goal.placed[1:]))))
+    return bench.fault(
+        "left in a wrong place",
+        "placement",
+        bench.with_goal(replace(goal, placed=(placed, *goal.placed[1:]))),
+    )
 
 
 def too_early(bench: Bench) -> Fault | None:
@@ -678,7 +748,18 @@ def missing_goal(bench: Bench) -> Fault | None:
 def extra_goal(bench: Bench) -> Fault | None:
     """The plan has a goal that the graph does not know."""
     end = bench.plan.duration_s
-    goal = replace(bench.plan.goals[-1], id="nobody_asked", joints=(), knots=None, samples=None, attached=(), placed=(), tool=None, start_s=end, end_s=end)
+    goal = replace(
+        bench.plan.goals[-1],
+        id="nobody_asked",
+        joints=(),
+        knots=None,
+        samples=None,
+        attached=(),
+        placed=(),
+        tool=None,
+        start_s=end,
+        end_s=end,
+    )
     return bench.fault("goal extra", "goals", replace(bench.plan, goals=(*bench.plan.goals, goal)))
 
 

@@ -39,9 +39,15 @@ class Arm:
         return Pose.from_axes(tuple(float(v) for v in frame.translation), *axes)
 
     def follow(
-        self, joints: Mapping[str, float], moved: Sequence[str], link: str, shift_m: Sequence[float], steps: int
+        self,
+        joints: Mapping[str, float],
+        moved: Sequence[str],
+        link: str,
+        shift_m: Sequence[float],
+        steps: int,
     ) -> list[dict[str, float]]:
-        """Joint values along a straight shift of the tool in the base, its orientation kept, by damped Newton steps."""
+        """Joint values along a straight shift of the tool in the base, its orientation kept, by damped
+        Newton steps."""
         q, frame = self.vector(joints), self.model.getFrameId(link)
         columns = [self.names.index(name) for name in moved]
         pin.framesForwardKinematics(self.model, self.data, q)
@@ -62,7 +68,8 @@ class Arm:
 
 
 def spline(points: Array) -> tuple[Array, Array]:
-    """Breaks and coefficients (pieces, powers, joints) of a clamped-free C2 cubic spline through points at equal steps.
+    """Breaks and coefficients (pieces, powers, joints) of a clamped-free C2 cubic spline through points at
+    equal steps.
 
     Two points give a straight line. Natural ends: the second derivative is zero there.
     """
@@ -84,15 +91,21 @@ def spline(points: Array) -> tuple[Array, Array]:
 
 
 def trapezoid(breaks: Array, coefficients: Array, limits: Sequence[JointLimit], share: float) -> Knots:
-    """The path with the fastest trapezoid of `s` that keeps `share` of every velocity and acceleration limit."""
+    """The path with the fastest trapezoid of `s` that keeps `share` of every velocity and acceleration
+    limit."""
     u = np.linspace(0.0, 1.0, 21)[:, None, None] * np.diff(breaks)[None, :, None]
-    c = np.concatenate([coefficients, np.zeros((len(coefficients), 4 - coefficients.shape[1], coefficients.shape[2]))], axis=1)
+    c = np.concatenate(
+        [coefficients, np.zeros((len(coefficients), 4 - coefficients.shape[1], coefficients.shape[2]))],
+        axis=1,
+    )
     first = np.abs(c[:, 1] + 2 * c[:, 2] * u + 3 * c[:, 3] * u**2).max(axis=(0, 1))
     second = np.abs(2 * c[:, 2] + 6 * c[:, 3] * u).max(axis=(0, 1))
     moving = first > 1e-12
     velocity = share * np.array([limit.velocity for limit in limits])[moving]
     acceleration = share * np.array([limit.acceleration for limit in limits])[moving]
-    speed = min((velocity / first[moving]).min(), np.sqrt(0.3 * acceleration / (second[moving] + 1e-12)).min())
+    speed = min(
+        (velocity / first[moving]).min(), np.sqrt(0.3 * acceleration / (second[moving] + 1e-12)).min()
+    )
     pull = (0.7 * acceleration / first[moving]).min()
     length = float(breaks[-1])
     speed = float(min(speed, np.sqrt(pull * length)))
@@ -108,7 +121,8 @@ def trapezoid(breaks: Array, coefficients: Array, limits: Sequence[JointLimit], 
 
 
 def evaluate(knots: Knots, t: float) -> tuple[Array, Array, Array]:
-    """Position, velocity and acceleration at one time: a second, scalar reading of the definition in `Knots`."""
+    """Position, velocity and acceleration at one time: a second, scalar reading of the definition in
+    `Knots`."""
     i = 0
     while i + 1 < len(knots.dds) and t >= knots.times_s[i + 1]:
         i += 1
@@ -122,7 +136,9 @@ def evaluate(knots: Knots, t: float) -> tuple[Array, Array, Array]:
     rows = np.array(knots.coefficients[p])
     q = sum(row * u**k for k, row in enumerate(rows))
     q1 = sum((k * row * u ** (k - 1) for k, row in enumerate(rows) if k >= 1), np.zeros(rows.shape[1]))
-    q2 = sum((k * (k - 1) * row * u ** (k - 2) for k, row in enumerate(rows) if k >= 2), np.zeros(rows.shape[1]))
+    q2 = sum(
+        (k * (k - 1) * row * u ** (k - 2) for k, row in enumerate(rows) if k >= 2), np.zeros(rows.shape[1])
+    )
     return q, q1 * sd, q2 * sd * sd + q1 * sdd
 
 

@@ -1,4 +1,5 @@
-"""Two small good plans on the bench's robot: one picks a tube from a rack and places it in another, one tours and drives."""
+"""Two small good plans on the bench's robot: one picks a tube from a rack and places it in another, one
+tours and drives."""
 
 from __future__ import annotations
 
@@ -95,13 +96,17 @@ class Story:
         self.joints = {**self.joints, **{name: rows[-1][name] for name in moved}}
         tool = arm_of(robot().urdf_text).tool(self.joints, TOOL) if arm == "right" else None
         end = start + knots.times_s[-1]
-        self._add(kind, action, resource, start, end, tuple(moved), contacts, samples, knots, tool, arm, beside)
+        self._add(
+            kind, action, resource, start, end, tuple(moved), contacts, samples, knots, tool, arm, beside
+        )
 
-    def act(self, kind: str, action: Action, resource: str, lasts: float = 0.0, placed: tuple[Placement, ...] = ()) -> None:
+    def act(
+        self, kind: str, action: Action, resource: str, lasts: float = 0.0, placed: tuple[Placement, ...] = ()
+    ) -> None:
         """A goal without a trajectory."""
         self._add(kind, action, resource, self.clock, self.clock + lasts, placed=placed)
 
-    def _add(  # noqa: PLR0913
+    def _add(
         self, kind, action, resource, start, end, joints=(), contacts=(), samples=None, knots=None, tool=None,
         arm=None, beside=False, placed=(),
     ) -> None:  # fmt: skip
@@ -139,7 +144,9 @@ def all_joints(**given: float) -> Joints:
     return {**zero, **left, **right, "slide_joint": 0.3, **given}
 
 
-def thing(name: str, pose: Pose, geometry: tuple[Primitive, ...], size, mass=0.02, movable=False) -> WorldObject:
+def thing(
+    name: str, pose: Pose, geometry: tuple[Primitive, ...], size, mass=0.02, movable=False
+) -> WorldObject:
     return WorldObject(name, pose, "world", 1.0, (), (), size, geometry, mass, movable=movable)
 
 
@@ -157,7 +164,8 @@ Case = tuple[TimedPlan, MotionGoalGraph, World, RobotDescription]
 
 @cache
 def pick_and_place() -> Case:
-    """The right arm takes a tube from one rack and puts it into another, while the left arm moves a little."""
+    """The right arm takes a tube from one rack and puts it into another, while the left arm moves a
+    little."""
     arm = arm_of(robot().urdf_text)
     grasp = all_joints(**dict(zip(RIGHT, (0.64, 0.06, 0.19, 0.99, -0.09, -0.40, -0.57), strict=True)))
     T_base_tool = arm.tool(grasp, TOOL)
@@ -180,7 +188,9 @@ def pick_and_place() -> Case:
     fingers = tuple(("tube_1", finger) for finger in FINGERS)
     in_rack, in_slot = (*fingers, ("tube_1", "rack_1")), (*fingers, ("tube_1", "rack_2"))
 
-    def to(reference: tuple[float, float, float], path="linear", **offsets: tuple[float, float, float]) -> MoveTo:
+    def to(
+        reference: tuple[float, float, float], path="linear", **offsets: tuple[float, float, float]
+    ) -> MoveTo:
         return MoveTo(ToolTarget(family.id, Pose(reference), **offsets), "right", path)
 
     def jaws(story: Story, gap: float, kind: str, contacts: tuple[tuple[str, str], ...]) -> None:

@@ -1,4 +1,5 @@
-"""The verifier finds every one of 1,000 injected faults, and nothing in the good plans that they were made from."""
+"""The verifier finds every one of 1,000 injected faults, and nothing in the good plans that they were made
+from."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""Single sides of the verifier: its evaluator, its kinematics, its bounds, what it forgives, and what it says."""
+"""Single sides of the verifier: its evaluator, its kinematics, its bounds, what it forgives, and what it
+says."""
 
 from __future__ import annotations
 
@@ -49,7 +50,9 @@ def test_evaluator_agrees_with_a_scalar_reading_and_with_differences() -> None:
             for mine, other in zip((q, v, a), maker.evaluate(goal.knots, float(t)), strict=True):
                 np.testing.assert_allclose(mine[k], other, atol=1e-9)
         h = 1e-6
-        np.testing.assert_allclose((motion.at(times + h)[0] - motion.at(times - h)[0]) / (2 * h), v, atol=1e-4)
+        np.testing.assert_allclose(
+            (motion.at(times + h)[0] - motion.at(times - h)[0]) / (2 * h), v, atol=1e-4
+        )
 
 
 def test_kinematics_agree_with_pinocchio(model: Robot) -> None:
@@ -156,7 +159,9 @@ def test_a_held_object_that_tilts_is_found_where_a_bound_is_given() -> None:
     assert carry.knots is not None
     bent = faults.resampled(carry, faults.bump(carry.knots, 5, 0.1))
     case = faults.Bench(plan, upright, world, about, arm_of(about.urdf_text), faults.Random(0))
-    kinds = {f.kind for f in verify_timed(case.with_goal(bent), upright, world, about, options=options).findings}
+    kinds = {
+        f.kind for f in verify_timed(case.with_goal(bent), upright, world, about, options=options).findings
+    }
     assert "tilt" in kinds
 
 

@@ -1,7 +1,8 @@
 """TimedPlan as JSON, both ways, so that a bundle on disk can be verified (schema: `timed.schema.json`).
 
-Trajectories are exact: floats are written so that they read back as the same numbers, and `knots` stand beside the samples.
-Margins are keyed by name; where a name stands twice, the later one is meant (the verifier's word comes after the planner's).
+Trajectories are exact: floats are written so that they read back as the same numbers, and `knots` stand
+beside the samples. Margins are keyed by name; where a name stands twice, the later one is meant (the
+verifier's word comes after the planner's).
 """
 
 from __future__ import annotations
@@ -41,7 +42,8 @@ def to_json(plan: TimedPlan) -> dict[str, Json]:
 
 
 def from_json(value: Mapping[str, Any]) -> TimedPlan:
-    """The plan of a value that fits the schema. Raises KeyError, TypeError or ValueError for one that does not."""
+    """The plan of a value that fits the schema. Raises KeyError, TypeError or ValueError for one that does
+    not."""
     if value["version"] != 1:
         raise ValueError(f"version {value['version']!r} of a timed plan is not known")
     return TimedPlan(

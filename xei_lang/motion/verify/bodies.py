@@ -1,14 +1,14 @@
-"""Links of the robot and objects of the world as one pinocchio geometry model, whose bodies can change carriers."""
+"""Links of the robot and objects of the world as one pinocchio geometry model, whose bodies can change
+carriers."""
 
 from __future__ import annotations
 
-import xml.etree.ElementTree as ElementTree
+import importlib
 from dataclasses import dataclass
 from typing import Any
+from xml.etree import ElementTree
 
-import coal
 import numpy as np
-import pinocchio as pin
 
 from xei_lang.ir.geometry import Box, Cylinder, Pose, Primitive, Shape, Sphere
 from xei_lang.ir.world import World
@@ -17,6 +17,9 @@ from xei_lang.motion.verify.options import RobotDescription
 from xei_lang.motion.verify.robot import Robot
 from xei_lang.motion.verify.timeline import Scene
 from xei_lang.motion.verify.torque import to_se3
+
+pin: Any = importlib.import_module("pinocchio")  # ships no type information
+coal: Any = importlib.import_module("coal")  # ships no type information
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +39,8 @@ class Body:
 
 
 class Bodies:
-    """The geometry model with all bodies and, for every pair of them that may be checked, its pairs of shapes."""
+    """The geometry model with all bodies and, for every pair of them that may be checked, its pairs of
+    shapes."""
 
     def __init__(self, robot: Robot, about: RobotDescription, world: World) -> None:
         self.robot = robot

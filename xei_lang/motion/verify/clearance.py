@@ -1,9 +1,10 @@
 """No two bodies touch that may not, at any time: conservative advancement over the 1 kHz configurations.
 
-Two bodies that are `d` apart cannot meet before their points have moved by `d` towards each other; how far points can have
-moved is bounded by the joints' travel times their levers (`Robot.lever`). So each pair is measured, then left alone for as
-long as that bound allows (Mirtich, "Impulse-based dynamic simulation of rigid body systems", 1996, ch. 2). Pairs that bounding
-spheres keep apart through a whole phase are never measured. Between objects that nobody holds nothing is checked.
+Two bodies that are `d` apart cannot meet before their points have moved by `d` towards each other; how far
+points can have moved is bounded by the joints' travel times their levers (`Robot.lever`). So each pair is
+measured, then left alone for as long as that bound allows (Mirtich, "Impulse-based dynamic simulation of
+rigid body systems", 1996, ch. 2). Pairs that bounding spheres keep apart through a whole phase are never
+measured. Between objects that nobody holds nothing is checked.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from xei_lang.ir.timed import TimedGoal
 from xei_lang.motion.verify.bodies import Bodies
 from xei_lang.motion.verify.context import Context
 from xei_lang.motion.verify.evaluate import Array
-from xei_lang.motion.verify.pairs import Pairs
+from xei_lang.motion.verify.pairs import Pairs, Rows
 from xei_lang.motion.verify.timeline import Phase
 
 _NODE_STRIDE = 16
@@ -25,7 +26,8 @@ _NODE_STRIDE = 16
 
 @dataclass(frozen=True, slots=True)
 class _Near:
-    """A pair that bounding spheres do not keep apart, and how far its points can have moved up to each time."""
+    """A pair that bounding spheres do not keep apart, and how far its points can have moved up to each
+    time."""
 
     row: int
     moved: Array
@@ -55,8 +57,8 @@ def _still(phase: Phase) -> Phase:
 
 
 def _check_phase(context: Context, bodies: Bodies, pairs: Pairs, phase: Phase) -> int:
-    """Pairs that move against each other; at a single instant, all that can. What stands still against each other was
-    looked at when it last moved."""
+    """Pairs that move against each other; at a single instant, all that can. What stands still against each
+    other was looked at when it last moved."""
     travel = np.zeros_like(phase.q)
     np.cumsum(np.abs(np.diff(phase.q, axis=0)), axis=0, out=travel[1:])
     active = travel[-1] > 0.0
@@ -67,7 +69,7 @@ def _check_phase(context: Context, bodies: Bodies, pairs: Pairs, phase: Phase) -
     return _advance(context, bodies, pairs, phase, near)
 
 
-def _sift(phase: Phase, pairs: Pairs, rows: Array, travel: Array, contact_m: float) -> list[_Near]:
+def _sift(phase: Phase, pairs: Pairs, rows: Rows, travel: Array, contact_m: float) -> list[_Near]:
     """The pairs that lower bounds at some nodes do not already keep apart from node to node."""
     nodes = np.unique([*range(0, len(phase.times), _NODE_STRIDE), len(phase.times) - 1])
     gaps = pairs.gaps(pairs.centers(phase.q[nodes], phase.scene), rows, phase.scene) - contact_m
@@ -76,13 +78,12 @@ def _sift(phase: Phase, pairs: Pairs, rows: Array, travel: Array, contact_m: flo
     travel, weights = travel[:, columns], pairs.weights[np.ix_(rows, columns)]
     steps = np.einsum("nj,pj->np", np.diff(travel[nodes], axis=0), weights)
     apart = np.all(gaps > 0.0, axis=0) & np.all(gaps[1:] + gaps[:-1] > steps, axis=0)
-    return [
-        _Near(int(rows[k]), np.einsum("nj,j->n", travel, weights[k])) for k in np.flatnonzero(~apart)
-    ]
+    return [_Near(int(rows[k]), np.einsum("nj,j->n", travel, weights[k])) for k in np.flatnonzero(~apart)]
 
 
 def _advance(context: Context, bodies: Bodies, pairs: Pairs, phase: Phase, near: list[_Near]) -> int:
-    """Measure each pair's shapes when their bound has run out, in order of time; returns the number of distances."""
+    """Measure each pair's shapes when their bound has run out, in order of time; returns the number of
+    distances."""
     contact, last = context.options.contact_m, len(phase.times) - 1
     queue: list[tuple[int, int, int]] = []
     for k, item in enumerate(near):

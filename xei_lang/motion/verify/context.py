@@ -63,7 +63,8 @@ class Context:
 def pose_error(a: Pose, b: Pose) -> tuple[float, float]:
     """Distance in m and angle in rad between two poses of one frame.
 
-    The angle comes from the chord between the quaternions (4 asin(chord / 2)), which keeps small angles exact.
+    The angle comes from the chord between the quaternions (4 asin(chord / 2)), which keeps small angles
+    exact.
     """
     opposite = tuple(-value for value in b.quaternion)
     chord = min(math.dist(a.quaternion, b.quaternion), math.dist(a.quaternion, opposite))

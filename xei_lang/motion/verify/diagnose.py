@@ -1,4 +1,5 @@
-"""Findings as diagnostics: the step's own words, the goal, joint or bodies, the time, the value against its limit."""
+"""Findings as diagnostics: the step's own words, the goal, joint or bodies, the time, the value against its
+limit."""
 
 from __future__ import annotations
 

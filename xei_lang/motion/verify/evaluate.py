@@ -49,7 +49,8 @@ class Motion:
         return s, self.ds[index] + w * self.dds[index], self.dds[index]
 
     def at(self, t: Array, left: bool = False) -> tuple[Array, Array, Array]:
-        """Positions, velocities and accelerations (times, joints) at times t from the goal's start, by the chain rule."""
+        """Positions, velocities and accelerations (times, joints) at times t from the goal's start, by the
+        chain rule."""
         s, sd, sdd = self.phase(t, left)
         side = "left" if left else "right"
         piece = np.clip(np.searchsorted(self.breaks, s, side=side) - 1, 0, len(self.breaks) - 2)
@@ -70,7 +71,8 @@ class Motion:
         return (first[0][0], first[1][0]), (last[0][0], last[1][0])
 
     def critical_times(self) -> Array:
-        """Knots, the middles between them, and when the path passes from piece to piece: where extremes hide."""
+        """Knots, the middles between them, and when the path passes from piece to piece: where extremes
+        hide."""
         middles = 0.5 * (self.times[1:] + self.times[:-1])
         crossings = np.interp(self.breaks[1:-1], np.maximum.accumulate(self.s), self.times)
         return np.unique(np.concatenate([self.times, middles, crossings]))

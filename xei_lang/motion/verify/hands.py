@@ -12,8 +12,8 @@ from xei_lang.motion.verify.timeline import Moment
 
 
 def check_hands(context: Context) -> None:
-    """Each goal lists every held object that its joints carry and nothing that is not held, at the pose in the hand that
-    attaching made; a detach lets go of what was held, at the place that was asked for."""
+    """Each goal lists every held object that its joints carry and nothing that is not held, at the pose in
+    the hand that attaching made; a detach lets go of what was held, at the place that was asked for."""
     for goal in context.plan.goals:
         planned = context.planned(goal)
         if planned is None:
@@ -51,9 +51,7 @@ def _check_same_pose(
     options = context.options
     if distance > options.held_position_m or angle > options.held_rotation_rad:
         text = f"`{name}` sits elsewhere in the hand than where it was taken"
-        context.found(
-            "attachment", goal, goal.start_s, name, text, distance, options.held_position_m, "m"
-        )
+        context.found("attachment", goal, goal.start_s, name, text, distance, options.held_position_m, "m")
 
 
 def _check_carried(context: Context, goal: TimedGoal) -> None:

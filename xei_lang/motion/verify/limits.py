@@ -20,8 +20,8 @@ _SIDE_S = 1e-9
 def effective_limits(
     plan: TimedPlan, profile: Sequence[PlanningLimit], robot: Robot
 ) -> tuple[dict[str, JointLimit], tuple[Finding, ...]]:
-    """By joint, the narrowest of what the plan says, the profile says and the URDF says; and where the plan allows more
-    than the profile does."""
+    """By joint, the narrowest of what the plan says, the profile says and the URDF says; and where the plan
+    allows more than the profile does."""
     allowed = {limit.joint: limit for limit in profile}
     narrowed: dict[str, JointLimit] = {}
     findings: list[Finding] = []
@@ -59,7 +59,7 @@ def _wider(limit: JointLimit, known: PlanningLimit | None) -> list[tuple[str, fl
         ("acceleration", limit.acceleration, known.acceleration),
         ("torque", limit.torque, known.torque),
     ]
-    return [(name, *sorted((a, b))) for name, a, b in pairs if a > b + 1e-9]  # type: ignore[misc]
+    return [(name, b, a) if name == "lower" else (name, a, b) for name, a, b in pairs if a > b + 1e-9]
 
 
 def check_limits(context: Context) -> None:
@@ -120,8 +120,8 @@ def _check_joint(
 
 
 def check_jumps(context: Context) -> None:
-    """Position and velocity are continuous inside each goal and from goal to goal of a joint; motion starts where
-    the joint stood (`start` at first) and stops unless the joint's next goal takes over at once."""
+    """Position and velocity are continuous inside each goal and from goal to goal of a joint; motion starts
+    where the joint stood (`start` at first) and stops unless the joint's next goal takes over at once."""
     next_start, first_of = _next_starts(context.plan), _first_goals(context.plan)
     for goal in context.plan.goals:
         motion = context.timeline.motions.get(goal.id)
@@ -219,7 +219,12 @@ def _first_goals(plan: TimedPlan) -> dict[str, str]:
 def _carried_speed(context: Context, goal: TimedGoal, joint: str) -> float:
     for other in context.plan.goals:
         touching = abs(other.end_s - goal.start_s) <= context.options.time_tolerance_s
-        if touching and other.id != goal.id and joint in other.joints and other.id in context.timeline.motions:
+        if (
+            touching
+            and other.id != goal.id
+            and joint in other.joints
+            and other.id in context.timeline.motions
+        ):
             _, (_, speed) = context.timeline.motions[other.id].ends()
             return float(speed[other.joints.index(joint)])
     return 0.0

@@ -11,8 +11,8 @@ from xei_lang.ir.skill_plan import Side
 class RobotDescription:
     """The robot as text: URDF (rooted at the base, primitive collision shapes) and SRDF (disabled pairs).
 
-    `tool_links` name the link whose frame is the tool of each arm; `slide_joint` is the joint of `slide_move`,
-    `finger_joints` the joints whose travels add up to the gap between the jaws of each arm.
+    `tool_links` name the link whose frame is the tool of each arm; `slide_joint` is the joint of
+    `slide_move`, `finger_joints` the joints whose travels add up to the gap between the jaws of each arm.
     """
 
     urdf_text: str
@@ -32,9 +32,10 @@ class RobotDescription:
 class VerifyOptions:
     """Tolerances of the verifier. Ratios multiply a limit; the rest is in SI units.
 
-    `position_tolerance` (rad, m) forgives rounding; `joint_tolerance` and `opening_tolerance_m` say when a joint target
-    and a gap are met; `held_*` and `placed_*` bound how far an object's pose may be from what the plan says of it (two tool
-    tolerances: that of the grasp and that of the place). With `upright_tilt_rad`, goals that keep upright are held to it.
+    `position_tolerance` (rad, m) forgives rounding; `joint_tolerance` and `opening_tolerance_m` say when a
+    joint target and a gap are met; `held_*` and `placed_*` bound how far an object's pose may be from what
+    the plan says of it (two tool tolerances: that of the grasp and that of the place). With
+    `upright_tilt_rad`, goals that keep upright are held to it.
     """
 
     rate_hz: float = 1000.0

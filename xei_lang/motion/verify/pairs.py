@@ -1,4 +1,5 @@
-"""Which pairs of bodies to look at, which of them may touch, and how far each can move: as arrays, one row a pair."""
+"""Which pairs of bodies to look at, which of them may touch, and how far each can move: as arrays, one row a
+pair."""
 
 from __future__ import annotations
 
@@ -18,11 +19,12 @@ Mask = NDArray[np.bool_]
 
 
 class Pairs:
-    """All pairs that any phase may need: link and link (but for SRDF's disabled ones), link and object, and objects of
-    which one is held at some time. `first` and `second` index `names`; links come before objects.
+    """All pairs that any phase may need: link and link (but for SRDF's disabled ones), link and object, and
+    objects of which one is held at some time. `first` and `second` index `names`; links come before objects.
 
-    `arrange` makes what depends on the scene: `between` (pairs, joints) says which joints move the two against each other,
-    `weights` bounds by how much a point moves per unit of each of these joints, `eligible` leaves out what nobody holds.
+    `arrange` makes what depends on the scene: `between` (pairs, joints) says which joints move the two
+    against each other, `weights` bounds by how much a point moves per unit of each of these joints,
+    `eligible` leaves out what nobody holds.
     """
 
     def __init__(self, bodies: Bodies, graph: MotionGoalGraph, held: frozenset[str], srdf_text: str) -> None:
@@ -76,8 +78,9 @@ class Pairs:
         return self.robot.lever(name, float(np.linalg.norm(body.center)) + body.radius)
 
     def forbidden(self, phase: Phase, active: Mask) -> Rows:
-        """Rows of the pairs that a phase must keep apart: those that its joints move against each other and that nothing
-        allows to touch. At a single instant, where no joint moves: all, the base against what stands around it too."""
+        """Rows of the pairs that a phase must keep apart: those that its joints move against each other and
+        that nothing allows to touch. At a single instant, where no joint moves: all, the base against what
+        stands around it too."""
         wanted = self.eligible.copy()
         if len(phase.times) > 1:
             wanted &= (self.between & active).any(axis=1)
@@ -87,7 +90,8 @@ class Pairs:
         return np.flatnonzero(wanted)
 
     def _allowed(self, phase: Phase) -> frozenset[Pair]:
-        """Contacts that both the plan and the graph allow to a goal that runs, and a held object with its own fingers."""
+        """Contacts that both the plan and the graph allow to a goal that runs, and a held object with its
+        own fingers."""
         pairs: list[Pair] = []
         for goal in phase.running:
             granted = self._granted.get(goal.id, frozenset[Pair]())
@@ -124,11 +128,12 @@ class Pairs:
         return centers
 
     def gaps(self, centers: Array, rows: Rows, scene: Scene) -> Array:
-        """Lower bounds on the distances (configurations, rows): sphere to sphere, or sphere to the box of what stands."""
+        """Lower bounds on the distances (configurations, rows): sphere to sphere, or sphere to the box of
+        what stands."""
         a, b = self.first[rows], self.second[rows]
         difference = centers[:, a] - centers[:, b]
         gaps = np.sqrt(np.einsum("nij,nij->ni", difference, difference)) - self.radii[a] - self.radii[b]
-        for name in dict.fromkeys(self.pairs[row][1] for row in rows):
+        for name in dict.fromkeys(self.pairs[int(row)][1] for row in rows.tolist()):
             body = self.bodies.bodies[name]
             if name in self.carriers or body.is_link:
                 continue
@@ -139,4 +144,3 @@ class Pairs:
             wide = np.sqrt(np.einsum("nij,nij->ni", outside, outside)) - self.radii[a[places]]
             gaps[:, places] = np.maximum(gaps[:, places], wide)
         return gaps
-

@@ -1,4 +1,5 @@
-"""Each goal reaches what it was asked for: tool pose, joint target, gap between jaws, slide height, straight line, tilt."""
+"""Each goal reaches what it was asked for: tool pose, joint target, gap between jaws, slide height, straight
+line, tilt."""
 
 from __future__ import annotations
 
@@ -10,7 +11,7 @@ from xei_lang.ir.geometry import Pose
 from xei_lang.ir.goals import Family, Grip, JointTarget, MotionGoal, MoveTo, SlideMove, ToolTarget
 from xei_lang.ir.timed import TimedGoal
 from xei_lang.motion.verify.context import Context, pose_error
-from xei_lang.motion.verify.evaluate import grid
+from xei_lang.motion.verify.evaluate import Array, grid
 
 
 def check_reached(context: Context) -> None:
@@ -145,7 +146,7 @@ def _check_slide(context: Context, goal: TimedGoal, action: SlideMove) -> None:
         context.found("wrong_goal", goal, goal.end_s, joint, text, height, action.height_m, "m")
 
 
-def _rows(context: Context, goal: TimedGoal) -> tuple[np.ndarray, np.ndarray]:  # type: ignore[type-arg]
+def _rows(context: Context, goal: TimedGoal) -> tuple[Array, Array]:
     motion = context.timeline.motions[goal.id]
     times = grid(0.0, motion.duration_s, context.options.rate_hz)
     q = np.tile(context.timeline.starts[goal.id].q, (len(times), 1))

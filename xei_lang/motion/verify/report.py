@@ -15,9 +15,11 @@ FindingKind = Literal[
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One violation: what (`subject`: a joint, a pair of bodies, an object), when (plan time, s), and by how much.
+    """One violation: what (`subject`: a joint, a pair of bodies, an object), when (plan time, s), and by how
+    much.
 
-    `value` and `limit` are in `unit`; a collision's value is the signed distance. Both are 0 where nothing was measured.
+    `value` and `limit` are in `unit`; a collision's value is the signed distance. Both are 0 where nothing
+    was measured.
     """
 
     kind: FindingKind
@@ -33,7 +35,8 @@ class Finding:
 
 @dataclass(frozen=True, slots=True)
 class Checked:
-    """How much was looked at: goals, seconds of motion, 1 kHz configurations, exact distances between bodies."""
+    """How much was looked at: goals, seconds of motion, 1 kHz configurations, exact distances between
+    bodies."""
 
     goals: int = 0
     motion_s: float = 0.0
@@ -43,7 +46,8 @@ class Checked:
 
 @dataclass(frozen=True, slots=True)
 class VerificationReport:
-    """Findings by time, the narrowest margin of each sort, and the counts. No findings: the plan keeps its word."""
+    """Findings by time, the narrowest margin of each sort, and the counts. No findings: the plan keeps its
+    word."""
 
     findings: tuple[Finding, ...]
     margins: tuple[Margin, ...]

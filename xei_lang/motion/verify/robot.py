@@ -1,18 +1,23 @@
-"""The robot as the verifier reads it from the URDF: its joints, vectorised forward kinematics, and reach bounds.
+"""The robot as the verifier reads it from the URDF: its joints, vectorised forward kinematics, and reach
+bounds.
 
-Written apart from pinocchio (which serves for torque and distances), so that each can be tested against the other.
+Written apart from pinocchio (which serves for torque and distances), so that each can be tested against the
+other.
 """
 
 from __future__ import annotations
 
-import xml.etree.ElementTree as ElementTree
+import importlib
 from dataclasses import dataclass
+from typing import Any
+from xml.etree import ElementTree
 
 import numpy as np
-import pinocchio as pin
 
 from xei_lang.ir.geometry import Pose
 from xei_lang.motion.verify.evaluate import Array
+
+pin: Any = importlib.import_module("pinocchio")  # ships no type information
 
 Frames = tuple[Array, Array]
 """Rotations (times, 3, 3) and origins (times, 3) of one frame in the base."""
@@ -78,7 +83,9 @@ class Robot:
         """Links that hang, by moving joints, on what is rigid with this link: the fingers of a hand."""
         own = self.columns(link)
         return tuple(
-            other for other in self.links if self.columns(other)[: len(own)] == own and self.columns(other) != own
+            other
+            for other in self.links
+            if self.columns(other)[: len(own)] == own and self.columns(other) != own
         )
 
     def follow(self, q: Array) -> None:
@@ -116,9 +123,11 @@ class Robot:
         return Pose.from_axes(_vec(origin[0]), x, y, z)
 
     def lever(self, link: str, radius_m: float) -> Array:
-        """Bound, by column, on how far a point within `radius_m` of the link's origin moves per unit of that joint.
+        """Bound, by column, on how far a point within `radius_m` of the link's origin moves per unit of that
+        joint.
 
-        For a revolute joint: the farthest that the point can be from the joint's origin, whatever the joints between.
+        For a revolute joint: the farthest that the point can be from the joint's origin, whatever the joints
+        between.
         """
         levers = np.zeros(self.size)
         distance = radius_m

@@ -6,7 +6,7 @@ import numpy as np
 
 from xei_lang.ir.timed import Samples, TimedGoal
 from xei_lang.motion.verify.context import Context
-from xei_lang.motion.verify.evaluate import Array, Motion
+from xei_lang.motion.verify.evaluate import Array
 
 _SIDE_S = 1e-7
 
@@ -49,4 +49,3 @@ def _compare(
         text = f"the sampled {name} of `{joint}` is not that of the knots"
         exact = float(sides[1][row, column])
         context.found("samples", goal, time, joint, text, float(given[row, column]), exact)
-

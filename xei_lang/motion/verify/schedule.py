@@ -1,4 +1,5 @@
-"""The plan does all goals of the graph and no others, as what they are, in an order and at times that the graph allows."""
+"""The plan does all goals of the graph and no others, as what they are, in an order and at times that the
+graph allows."""
 
 from __future__ import annotations
 
@@ -9,7 +10,8 @@ from xei_lang.motion.verify.report import Finding
 
 
 def check_goals(context: Context) -> None:
-    """Missing and extra goals; kind, step and resources of each as the graph has them; its epoch as drives have made it."""
+    """Missing and extra goals; kind, step and resources of each as the graph has them; its epoch as drives
+    have made it."""
     timed = {goal.id for goal in context.plan.goals}
     planned = {goal.id: goal for goal in context.graph.goals}
     for goal in context.graph.goals:
@@ -55,9 +57,7 @@ def check_schedule(context: Context) -> None:
             continue
         if second.start_s < first.end_s - slack or place[after] < place[before]:
             text = f"it starts at {second.start_s:.6g} s, before `{before}` has ended"
-            context.found(
-                "schedule", second, second.start_s, before, text, second.start_s, first.end_s, "s"
-            )
+            context.found("schedule", second, second.start_s, before, text, second.start_s, first.end_s, "s")
     epochs = {epoch.index: epoch for epoch in context.graph.epochs}
     for goal in context.plan.goals:
         planned = context.planned(goal)

@@ -1,7 +1,8 @@
-"""The plan told again from its knots: phases in which the same goals run, with every joint, held object and scene.
+"""The plan told again from its knots: phases in which the same goals run, with every joint, held object and
+scene.
 
-Joints that no running goal moves hold their last position; mimic joints follow. Objects stand where the world has them,
-move with the hand between attach and detach, and stay where the hand was when it let go.
+Joints that no running goal moves hold their last position; mimic joints follow. Objects stand where the
+world has them, move with the hand between attach and detach, and stay where the hand was when it let go.
 """
 
 from __future__ import annotations
@@ -25,7 +26,8 @@ _MERGE_S = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class Held:
-    """An object in a hand: the link that carries it, where it sits there, and the grasp family that it was taken by."""
+    """An object in a hand: the link that carries it, where it sits there, and the grasp family that it was
+    taken by."""
 
     object: str
     link: str
@@ -36,7 +38,8 @@ class Held:
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """How things stand at one time: the base's epoch, what is held, and where all objects stand in the base frame."""
+    """How things stand at one time: the base's epoch, what is held, and where all objects stand in the base
+    frame."""
 
     epoch: int
     held: tuple[Held, ...]
@@ -54,7 +57,8 @@ class Moment:
 
 @dataclass(frozen=True, slots=True)
 class Phase:
-    """A stretch in which the same goals run: 1 kHz times and (times, joints) positions, velocities, accelerations.
+    """A stretch in which the same goals run: 1 kHz times and (times, joints) positions, velocities,
+    accelerations.
 
     `running` are all goals that run, `moving` those with a trajectory. A still phase has one row.
     """
@@ -71,7 +75,8 @@ class Phase:
 
 @dataclass(frozen=True, slots=True)
 class Timeline:
-    """All phases, and for every goal how things stood when it started and when it had ended (attach: once attached)."""
+    """All phases, and for every goal how things stood when it started and when it had ended (attach: once
+    attached)."""
 
     phases: tuple[Phase, ...]
     starts: Mapping[str, Moment]
@@ -80,7 +85,12 @@ class Timeline:
 
 
 def build_timeline(
-    plan: TimedPlan, graph: MotionGoalGraph, world: World, robot: Robot, about: RobotDescription, rate_hz: float
+    plan: TimedPlan,
+    graph: MotionGoalGraph,
+    world: World,
+    robot: Robot,
+    about: RobotDescription,
+    rate_hz: float,
 ) -> Timeline:
     """Walk through the plan's events in time order. The plan must be structurally sound."""
     return _Walk(plan, graph, world, robot, about, rate_hz).run()

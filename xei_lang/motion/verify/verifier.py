@@ -1,4 +1,5 @@
-"""The verifier: is a timed plan what the goals asked for, within every limit, without a touch? Asked from scratch."""
+"""The verifier: is a timed plan what the goals asked for, within every limit, without a touch? Asked from
+scratch."""
 
 from __future__ import annotations
 
@@ -31,12 +32,14 @@ def verify_timed(
     world: World,
     robot: RobotDescription,
     profile_limits: Sequence[PlanningLimit] = (),
+    *,
     options: VerifyOptions | None = None,
 ) -> VerificationReport:
     """Check a plan against the goals it carries out, the world it moves in and the robot that it moves.
 
-    Everything is evaluated anew from `knots`, at 1 kHz. Limits are the narrowest of the plan's, the profile's and the
-    URDF's. A plan whose numbers or lengths are unsound gets no further than those findings: its motion means nothing.
+    Everything is evaluated anew from `knots`, at 1 kHz. Limits are the narrowest of the plan's, the
+    profile's and the URDF's. A plan whose numbers or lengths are unsound gets no further than those
+    findings: its motion means nothing.
     """
     options = options or VerifyOptions()
     problems = timed_problems(plan)
