@@ -12,7 +12,7 @@ from xei_lang.lower.hand import hand_of
 from xei_lang.lower.operations import Planned, operation_of_point
 from xei_lang.lower.operations.grasp import GRASP
 from xei_lang.lower.operations.place import PLACE
-from xei_lang.lower.parameters import Setting
+from xei_lang.lower.parameters import ROUNDING_M, Setting
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.seats import place_text
 from xei_lang.lower.task import Task, refuse_template
@@ -116,18 +116,20 @@ def _maybe_arm(task: Task, line: TemplateStep) -> Side | None:
 
 def _open_gripper(task: Task, line: TemplateStep) -> Draft:
     arm = task.arm(line.field("arm"), line)
+    draft = _grip(task, line, arm)
     held = task.scene.held.get(arm)
     if held is not None and not held.touching:
         _refuse_moving_jaws(task, arm, held, "would let it fall")
-    return _grip(task, line, arm)
+    return draft
 
 
 def _close_gripper(task: Task, line: TemplateStep) -> Draft:
     arm = task.arm(line.field("arm"), line)
+    draft = _grip(task, line, arm)
     held = task.scene.held.get(arm)
     if held is not None:
         _refuse_moving_jaws(task, arm, held, "would squeeze it")
-    return _grip(task, line, arm)
+    return draft
 
 
 def _refuse_moving_jaws(task: Task, arm: Side, held: Held, what: str) -> None:
@@ -144,7 +146,7 @@ def _refuse_moving_jaws(task: Task, arm: Side, held: Held, what: str) -> None:
 def _grip(task: Task, line: TemplateStep, arm: Side) -> Draft:
     width = task.setting(str(line.field("width")), arm, line)
     opening_m, most_m = width.si("Length"), hand_of(task.profile).max_gap_m
-    if not 0.0 <= opening_m <= most_m + 1e-9:
+    if not 0.0 <= opening_m <= most_m + ROUNDING_M:
         refuse(
             "XEI0702",
             f"`{width.name}` of {width.text} is not a gap of this gripper",

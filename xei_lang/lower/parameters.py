@@ -22,6 +22,9 @@ from xei_lang.quantity.dimension import NUMBER
 Source = Literal["skill", "computed", "usage_profile", "call"]
 
 _DIMENSIONS: Mapping[str, tuple[Dimension, ...]] = {**TYPE_DIMENSIONS, "Fraction": (NUMBER,)}
+ROUNDING_M = 1e-6
+"""What a computed length may be off by, so that comparisons with a limit leave this much room."""
+
 _USAGE_NAMES = {"width": "grasp_width"}
 
 
@@ -108,5 +111,5 @@ def _of_call(step: Step) -> dict[str, Setting]:
 
 
 def computed_length(name: str, value_m: float, rule: str) -> Setting:
-    """A computed length, rounded to a tenth of a millimetre so that the text says exactly what is used."""
-    return Setting(name, quantity(Fraction(round(value_m * 10_000), 10), "mm"), "computed", rule, None)
+    """A computed length, rounded to a micrometre so that the text says exactly what is used."""
+    return Setting(name, quantity(Fraction(round(value_m * 1_000_000), 1000), "mm"), "computed", rule, None)

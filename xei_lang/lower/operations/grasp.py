@@ -23,12 +23,13 @@ from xei_lang.lower.operations.grasp_family import (
     is_round,
     members,
 )
-from xei_lang.lower.parameters import Setting, computed_length
+from xei_lang.lower.parameters import ROUNDING_M, Setting, computed_length
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.robot import reach_direction
 from xei_lang.lower.seats import place_text, seat_of
 from xei_lang.lower.walk import Standing
 from xei_lang.profiles.model import LabObject
+from xei_lang.world.places import accepts
 
 _APPROACHES = {"top": (60.0, 90.0), "oblique": (30.0, 45.0, 60.0), "side": (0.0, 30.0)}
 _SKILL_CLEARANCE_M = 0.004
@@ -160,7 +161,7 @@ def _widths(work: Work, closing: Closing, hand: Hand) -> _Widths:
     opening = work.layers.merge("open_width", computed_length("open_width", wide_m, rule))
     assert opening is not None
     for item in (opening, closed):
-        if not 0.0 <= item.si("Length") <= hand.max_gap_m + 1e-9:
+        if not 0.0 <= item.si("Length") <= hand.max_gap_m + ROUNDING_M:
             refuse(
                 "XEI0702",
                 f"`{item.name}` of {item.text} is not a gap of this gripper",
@@ -188,7 +189,7 @@ def _floor(work: Work, known: LabObject, standing: Standing) -> tuple[float, str
     deepest, where = _sunk(work, standing), standing.place or standing.support
     for ref in work.destinations:
         host = work.profile.object(ref.object)
-        seat = seat_of(ref, host) if host else None
+        seat = seat_of(ref, host) if host and accepts(host, ref, known.roles) else None
         if seat is not None and seat.grid is not None and seat.grid.depth_m > deepest:
             deepest, where = seat.grid.depth_m, place_text(ref)
     return deepest, where

@@ -13,11 +13,12 @@ from xei_lang.lower.operations.approach import back_off
 from xei_lang.lower.operations.base import Aim, Operation, Planned, Work
 from xei_lang.lower.operations.lift import along, clear_travel
 from xei_lang.lower.operations.surface import free_room
-from xei_lang.lower.parameters import Setting, computed_length
+from xei_lang.lower.parameters import ROUNDING_M, Setting, computed_length
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.seats import Seat, place_text, seat_of
 from xei_lang.lower.walk import Held
 from xei_lang.profiles.model import LabObject, SlotGrid
+from xei_lang.world.places import accepts
 
 _DEFAULT_CLEARANCE_M = 0.004
 
@@ -108,8 +109,10 @@ def _refuse_occupied(work: Work, seat: Seat, held: Held) -> None:
 
 
 def _refuse_unfit(work: Work, seat: Seat, grid: SlotGrid, known: LabObject) -> None:
+    host = work.profile.object(seat.ref.object)
+    assert host is not None
     label = (Label(grid.span, "the slots are stated here"), Label(known.span, "the object is stated here"))
-    if not any(role in known.roles for role in grid.accepts):
+    if not accepts(host, seat.ref, known.roles):
         refuse(
             "XEI0705",
             f"`{seat.text}` does not accept `{known.name}`",
@@ -139,7 +142,7 @@ def _insertion_depth(work: Work, seat: Seat) -> Setting | None:
     computed = computed_length("insertion_depth", seat.grid.depth_m, f"depth of `{seat.text}`")
     setting = work.layers.merge("insertion_depth", computed)
     assert setting is not None
-    if not 0.0 < setting.si("Length") <= seat.grid.depth_m + 1e-9:
+    if not 0.0 < setting.si("Length") <= seat.grid.depth_m + ROUNDING_M:
         refuse(
             "XEI0702",
             f"`insertion_depth` of {setting.text} does not fit `{seat.text}`",
@@ -177,7 +180,7 @@ def _release_width(work: Work, held: Held) -> tuple[Setting, Setting]:
     rule = f"{held.grasp_width_m * 1000:g} mm and {default.text} on each side"
     setting = work.layers.merge("release_width", computed_length("release_width", width_m, rule))
     assert setting is not None
-    if not held.grasp_width_m < setting.si("Length") <= gap_m + 1e-9:
+    if not held.grasp_width_m < setting.si("Length") <= gap_m + ROUNDING_M:
         refuse(
             "XEI0702",
             f"`release_width` of {setting.text} does not release `{held.object}`",
