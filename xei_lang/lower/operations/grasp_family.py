@@ -125,7 +125,7 @@ def _heights(request: Request, elevation_rad: float, turned: bool) -> tuple[floa
     height, half = request.height_m, request.closing.half_depth_m
     floor = request.floor_m + request.clearance_m + drop_m(elevation_rad, turned)
     lowest = max(floor, height - _deepest(request, elevation_rad))
-    highest = height - min(_TOP_MARGIN_M, height / 3)
+    highest = height - min(_TOP_MARGIN_M, height / 5)
     if request.depth_m is not None:
         wanted = height - request.depth_m
         heights: tuple[float, ...] = (wanted,) if lowest <= wanted <= height else ()
