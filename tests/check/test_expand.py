@@ -151,7 +151,12 @@ def test_time_clauses_are_recorded_from_end_to_start() -> None:
 
 
 def test_notes_gaps_and_questions_stand_in_their_places() -> None:
-    body = 'unmapped "spin" because "no skill"\nfor i in 1 .. 2 { wait 1 s note "hot" }\nconfirm "ice?"\nnote "end"'
+    body = """
+      unmapped "spin" because "no skill"
+      for i in 1 .. 2 { wait 1 s note "hot" }
+      confirm "ice?"
+      note "end"
+    """
     plan = plan_of(protocol(body))
     gaps = [(gap.text, gap.reason, gap.after_step) for gap in plan.unmapped_requests]
     assert gaps == [("spin", "no skill", None)]

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from fractions import Fraction
 from types import MappingProxyType
 
 from xei_lang.check import arithmetic
+from xei_lang.check.command_line import read_value
 from xei_lang.check.declared import declared_expectation, known_roles
 from xei_lang.check.evaluate import Evaluator
 from xei_lang.check.expectation import Expectation
@@ -21,16 +21,12 @@ from xei_lang.check.values import (
     POISON,
     Interval,
     ObjectValue,
-    PlaceValue,
     Poison,
     Val,
-    Word,
-    number,
     show,
 )
 from xei_lang.diagnostics import Label, Sources, Span, did_you_mean
-from xei_lang.ir.skill_plan import StationRef
-from xei_lang.quantity import DimensionError, QuantityError, parse_quantity
+from xei_lang.quantity import DimensionError, QuantityError
 from xei_lang.syntax.ast import Name, ObjectDecl, Param, Range, StringLit
 
 _NOTHING: Mapping[str, str] = MappingProxyType({})
@@ -42,8 +38,8 @@ class CheckOptions:
 
     `bindings` gives objects (`--bind rack=rack_1`), `params` the text of values (`--param volume="2 mL"`).
     With `open_bindings`, as in `xei check`, an object without binding is any object with its roles, and a
-    ranged parameter is its whole interval. `sources` are the texts of the profile's files, so that notes can name
-    a rule's line.
+    ranged parameter is its whole interval. `sources` are the texts of the profile's files, so that notes can
+    name a rule's line.
     """
 
     bindings: Mapping[str, str] = field(default_factory=lambda: _NOTHING)
@@ -216,7 +212,7 @@ class Binder:
         written = StringLit(given, node.name.span)
         shown = f"`--param {node.name.id}={given}`"
         try:
-            value = self._read(given, expected)
+            value = read_value(given, expected, self._registry)
         except (QuantityError, ValueError) as error:
             reason = error.reason if isinstance(error, QuantityError) else str(error)
             self._reporter.report(
@@ -225,55 +221,6 @@ class Binder:
             return POISON
         value = self._types.coerce(value, expected, written, state)
         return self.inside(value, limits, node, node.name.span, shown)
-
-    def _read(self, given: str, expected: Expectation) -> Val:  # noqa: PLR0911 one return for each type
-        """The value of a text of the command line; raises ValueError or QuantityError where it is none."""
-        if expected.lists:
-            raise ValueError("a list cannot be given on the command line")
-        match expected.type:
-            case "String":
-                return given
-            case "Bool":
-                if given not in ("true", "false"):
-                    raise ValueError("expected `true` or `false`")
-                return given == "true"
-            case "Int" | "Float":
-                return self._read_number(given)
-            case "Arm":
-                return Word(given)
-            case "Station":
-                if given not in self._registry.stations:
-                    raise ValueError(f"stations are {', '.join(self._registry.stations)}")
-                return StationRef(given)
-            case "object" | "Place":
-                return self._read_object(given)
-            case _:
-                return parse_quantity(given)
-
-    def _read_number(self, given: str) -> Val:
-        try:
-            return (
-                number(Fraction(given))
-                if "/" not in given and "e" not in given.lower()
-                else _not_plain(given)
-            )
-        except ValueError:
-            return _not_plain(given)
-
-    def _read_object(self, given: str) -> Val:
-        owner, dot, rest = given.partition(".")
-        thing = self._registry.objects.get(owner)
-        if thing is None:
-            close = did_you_mean(owner, self._registry.objects)
-            raise ValueError(
-                f"there is no object `{owner}`" + (f"; did you mean `{close[0]}`?" if close else "")
-            )
-        if not dot:
-            return ObjectValue(owner, thing)
-        for kind in ("slot", "spot"):
-            if rest.startswith(f'{kind}("') and rest.endswith('")'):
-                return PlaceValue(ObjectValue(owner, thing), kind, rest[len(kind) + 2 : -2])
-        raise ValueError('a place is written as `rack_1.slot("A1")`')
 
     def limits(
         self, node: Range | None, expected: Expectation, scope: Scope, state: State
@@ -334,7 +281,3 @@ class Binder:
 
 def _about(limits: Interval, default: Val) -> Interval:
     return Interval(limits.lower, limits.upper, default)  # type: ignore[arg-type]
-
-
-def _not_plain(given: str) -> Val:
-    raise ValueError(f"`{given}` is not a plain number such as 3 or 0.5")

@@ -68,6 +68,7 @@ class Calls:
         evaluator: Evaluator,
         types: Types,
         reporter: Reporter,
+        *,
         procedures: tuple[str, ...],
         imports: bool,
     ) -> None:
@@ -237,7 +238,8 @@ class Calls:
         return True
 
     def _refused(self, thing: ObjectValue, place: PlaceValue, accepts: tuple[str, ...], arg: Arg) -> None:
-        assert thing.registered is not None and place.owner.registered is not None
+        assert thing.registered is not None
+        assert place.owner.registered is not None
         grid = place.owner.registered.slots
         self._reporter.report(
             "XEI0310",

@@ -57,7 +57,7 @@ def make_context(module: Module, source: Source, profile: Profile, options: Chec
         Usage(),
         types,
         evaluator,
-        Calls(registry, evaluator, types, reporter, names, imports),
+        Calls(registry, evaluator, types, reporter, procedures=names, imports=imports),
         Clauses(evaluator, types, reporter),
         Givens(evaluator, types, reporter),
         Binder(registry, evaluator, types, reporter, options),

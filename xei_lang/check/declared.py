@@ -13,7 +13,7 @@ from xei_lang.syntax.ast import Generic, Role, TypeExpr, walk
 _LATER = ("Pose",)
 
 
-def declared_expectation(
+def declared_expectation(  # noqa: PLR0911 one return for each form of a type
     node: TypeExpr, what: str, registry: Registry, reporter: Reporter
 ) -> Expectation | None:
     """What a declared name takes; None where the type names nothing, which is reported."""

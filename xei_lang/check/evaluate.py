@@ -63,7 +63,9 @@ class Evaluator:
         self.lists = Lists(reporter, self.value, budget)
         self._functions = Functions(reporter, budget)
 
-    def value(self, node: Expression | Range, scope: Scope, words: tuple[str, ...] = ()) -> Val:
+    def value(  # noqa: PLR0911, PLR0912 one return for each kind of node
+        self, node: Expression | Range, scope: Scope, words: tuple[str, ...] = ()
+    ) -> Val:
         """The value of an expression; `words` are the words of an enumeration that may stand here bare."""
         match node:
             case Name():

@@ -175,7 +175,7 @@ class Expander:
         name = call.callee.id
         procedure = self.context.procedures.get(name)
         if procedure is not None and name not in self.context.registry.skills:
-            procedures.inline(self, step, call, procedure, scope, where)
+            procedures.inline(self, step, call, procedure, scope=scope, where=where)
             return
         checked = self.context.calls.check(call, scope, self.state)
         if checked is None:

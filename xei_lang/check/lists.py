@@ -97,7 +97,8 @@ class Lists:
                 "XEI0312", "the step of this range is of another dimension than its ends", span
             )
         assert isinstance(turns, (int, Fraction))
-        assert isinstance(lower, (int, Fraction, Quantity)) and isinstance(step, (int, Fraction, Quantity))
+        assert isinstance(lower, (int, Fraction, Quantity))
+        assert isinstance(step, (int, Fraction, Quantity))
         return ListValue(Progression(lower, step, max(0, int(turns) + 1 if turns >= 0 else 0)))
 
     def index(self, node: Index, scope: Scope) -> Val:

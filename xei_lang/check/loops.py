@@ -27,7 +27,7 @@ def for_loop(expander: Expander, step: Step, loop: For, scope: Scope, where: Whe
     items = context.evaluator.lists.members(value, loop.iterable)
     if items is None:
         items = (POISON,)
-    _turns(expander, step, loop, items, scope, where)
+    _turns(expander, step, loop, items, scope=scope, where=where)
 
 
 def repeat(expander: Expander, step: Step, loop: Repeat, scope: Scope, where: Where) -> None:
@@ -52,11 +52,11 @@ def repeat(expander: Expander, step: Step, loop: Repeat, scope: Scope, where: Wh
             else "expected 0 or more",
         )
         count = 1
-    _turns(expander, step, loop, range(1, count + 1), scope, where)
+    _turns(expander, step, loop, range(1, count + 1), scope=scope, where=where)
 
 
 def _turns(
-    expander: Expander, step: Step, loop: For | Repeat, items: Sequence[Val], scope: Scope, where: Where
+    expander: Expander, step: Step, loop: For | Repeat, items: Sequence[Val], *, scope: Scope, where: Where
 ) -> None:
     plan, count = expander.plan, len(items)
     if count > plan.max_steps and loop.body.statements:
@@ -70,7 +70,7 @@ def _turns(
         if not expander.context.evaluator.budget.spend(1, loop.span):
             plan.full, plan.overflow = True, plan.overflow or loop.span
             break
-        _turn(expander, step, loop, number, item, scope, where)
+        _turn(expander, step, loop, number, item, scope=scope, where=where)
         made = len(plan.steps) - start
         if number == 1 and start + made * count > plan.max_steps and _regular(expander, loop):
             plan.full = True
@@ -83,7 +83,7 @@ def _turns(
 
 
 def _turn(
-    expander: Expander, step: Step, loop: For | Repeat, number: int, item: Val, scope: Scope, where: Where
+    expander: Expander, step: Step, loop: For | Repeat, number: int, item: Val, *, scope: Scope, where: Where
 ) -> None:
     inner = scope.child()
     lists = expander.context.evaluator.lists

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 def inline(
-    expander: Expander, step: Step, call: Call, procedure: Procedure, scope: Scope, where: Where
+    expander: Expander, step: Step, call: Call, procedure: Procedure, *, scope: Scope, where: Where
 ) -> None:
     """Expand a procedure's body in place of its call, with the arguments as they are at this point."""
     name = procedure.name.id
@@ -37,7 +37,7 @@ def inline(
         given = dict[str, Arg]()
     inner = scope.fresh()
     for formal in procedure.params:
-        value = _actual(expander, formal, given, procedure, scope, inner)
+        value = _actual(expander, formal, given, procedure, scope=scope, inner=inner)
         inner.declare(formal.name, "parameter", value, expander.context.reporter)
     frame = Frame(name, call.span)
     below = where.under(f"{where.path(step)}.", step_names(procedure.body))
@@ -99,6 +99,7 @@ def _actual(
     formal: Param,
     given: Mapping[str, Arg],
     procedure: Procedure,
+    *,
     scope: Scope,
     inner: Scope,
 ) -> Val:

@@ -64,7 +64,7 @@ class State:
         return fact.value if fact else None
 
     def occupant(self, place: PlaceRef) -> str | None:
-        """What stands in a place; while an object is in a hand, the place it was taken from still means it."""
+        """What stands in a place; while an object is in a hand, the place that it left still means it."""
         return self._occupants.get(place) or self._taken_from.get(place)
 
     def set(self, variable: str, subject: str, value: Value) -> None:

@@ -46,7 +46,9 @@ class Types:
         self._places = places
         self._reporter = reporter
 
-    def coerce(self, value: Val, expected: Expectation, node: Expression, state: State) -> Val:
+    def coerce(  # noqa: PLR0911 one return for each type
+        self, value: Val, expected: Expectation, node: Expression, state: State
+    ) -> Val:
         """The value as the expected type has it: a place where an object is expected is its occupant in
         `state`.
         """

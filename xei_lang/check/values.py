@@ -103,7 +103,7 @@ def number(value: int | Fraction | Quantity) -> Numeric:
     return int(value) if value.denominator == 1 else value
 
 
-def show(value: Val) -> str:
+def show(value: Val) -> str:  # noqa: PLR0911 one return for each kind of value
     """A value as it would be written in a protocol."""
     match value:
         case bool():
@@ -134,7 +134,7 @@ def show_place(place: PlaceRef) -> str:
     return f'{place.object}.{place.kind}("{place.key}")' if place.key else place.object
 
 
-def kind(value: Val) -> str:
+def kind(value: Val) -> str:  # noqa: PLR0911 one return for each kind of value
     """What sort of value it is, with its article, for messages."""
     match value:
         case bool():
@@ -173,7 +173,7 @@ def nominal(value: Val) -> Val:
     return value.nominal if isinstance(value, Interval) else value
 
 
-def to_plan(value: Val) -> Value:
+def to_plan(value: Val) -> Value:  # noqa: PLR0911 one return for each kind of value
     """A checked value as the plan keeps it; an interval is its nominal value, poison an empty text."""
     match value:
         case Word():
