@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Literal
 
 from xei_lang.diagnostics import Diagnostic, Diagnostics, Span
@@ -147,7 +148,7 @@ def _goal_faults(goal: TimedGoal, limited: set[str]) -> Iterator[tuple[str, str]
 
 
 def _rising(row: tuple[float, ...], strictly: bool) -> bool:
-    return all(b > a if strictly else b >= a for a, b in zip(row, row[1:], strict=False))
+    return all(b > a if strictly else b >= a for a, b in pairwise(row))
 
 
 def _knots_faults(knots: Knots, joints: int, duration_s: float) -> Iterator[str]:

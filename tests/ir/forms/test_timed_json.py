@@ -32,9 +32,22 @@ def test_the_form_has_the_keys_of_the_command_line_document() -> None:
     assert {"version", "start", "limits", "goals", "duration_s", "margins"} <= value.keys()
     goal = value["goals"][0]
     keys = {
-        "id", "step_id", "kind", "resource", "epoch", "start_s", "end_s", "joints", "times_s", "positions", "velocities",
-        "accelerations", "knots", "attached", "allowed_contacts",
-    }  # fmt: skip
+        "id",
+        "step_id",
+        "kind",
+        "resource",
+        "epoch",
+        "start_s",
+        "end_s",
+        "joints",
+        "times_s",
+        "positions",
+        "velocities",
+        "accelerations",
+        "knots",
+        "attached",
+        "allowed_contacts",
+    }
     assert keys <= goal.keys()
 
 
@@ -47,4 +60,5 @@ def test_the_text_has_a_line_for_every_goal() -> None:
     plan = pick_and_place()[0]
     text = to_text(plan)
     assert all(f"  {goal.id}  " in text for goal in plan.goals)
-    assert "holding tube_1" in text and "leaves tube_1" in text
+    assert "holding tube_1" in text
+    assert "leaves tube_1" in text

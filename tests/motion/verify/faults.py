@@ -503,9 +503,10 @@ def object_in_path(bench: Bench) -> Fault | None:
     pin.updateGeometryPlacements(bench.arm.model, bench.arm.data, geometry, placements, q)
     joints = {bench.arm.names.index(joint) + 1 for joint in goal.joints}
     shapes = [
-        k for k, shape in enumerate(geometry.geometryObjects)
+        k
+        for k, shape in enumerate(geometry.geometryObjects)
         if joints.intersection(bench.arm.model.supports[shape.parentJoint])
-    ]  # fmt: skip
+    ]
     point = placements.oMg[bench.random.choice(shapes)].translation
     T_base_shape = Pose(tuple(map(float, point)))
     T_world_object = _base(bench, goal) @ T_base_shape @ item.geometry[0].T_object_shape.inverse()
@@ -564,15 +565,23 @@ def contact_not_allowed(bench: Bench) -> Fault | None:
         return None
     goal, item, pair, other = bench.random.choice(choices)
     found = bench.world.find(item.object)
-    assert found is not None and goal.knots is not None
+    assert found is not None
+    assert goal.knots is not None
     T_base_world = _base(bench, goal).inverse()
     for time in (goal.start_s, goal.end_s):
         T_base_object = bench.arm.tool(bench.joints_at(time), item.link) @ item.T_link_object
         T_base_other = T_base_world @ bench.world.T_world_object(other.name)
         deep = any(
-            _depth(_coal(a.shape), _se3(T_base_object @ a.T_object_shape), _coal(b.shape), _se3(T_base_other @ b.T_object_shape)) < -1e-4
-            for a in found.geometry for b in other.geometry
-        )  # fmt: skip
+            _depth(
+                _coal(a.shape),
+                _se3(T_base_object @ a.T_object_shape),
+                _coal(b.shape),
+                _se3(T_base_other @ b.T_object_shape),
+            )
+            < -1e-4
+            for a in found.geometry
+            for b in other.geometry
+        )
         if deep:
             kept = tuple(p for p in goal.allowed_contacts if p != pair)
             return bench.fault(
@@ -767,7 +776,8 @@ def not_a_number(bench: Bench) -> Fault | None:
     """One number of a trajectory is NaN or infinite."""
     goal = bench.random.choice(bench.moving)
     bad = bench.random.choice([math.nan, math.inf, -math.inf])
-    assert goal.knots is not None and goal.samples is not None
+    assert goal.knots is not None
+    assert goal.samples is not None
     if bench.random.random() < 0.5:
         name = bench.random.choice(["breaks", "times_s", "s", "ds", "dds"])
         row = list(getattr(goal.knots, name))
@@ -784,7 +794,8 @@ def not_a_number(bench: Bench) -> Fault | None:
 def short_rows(bench: Bench) -> Fault | None:
     """Samples or knots have a row too few."""
     goal = bench.random.choice(bench.moving)
-    assert goal.knots is not None and goal.samples is not None
+    assert goal.knots is not None
+    assert goal.samples is not None
     if bench.random.random() < 0.5:
         changed = replace(goal, knots=replace(goal.knots, ds=goal.knots.ds[:-1]))
     else:
@@ -793,8 +804,31 @@ def short_rows(bench: Bench) -> Fault | None:
 
 
 MAKERS: tuple[Callable[[Bench], Fault | None], ...] = (
-    position_limit, velocity_limit, acceleration_spike, torque_by_speed, torque_by_payload, jump_inside, jump_between,
-    wrong_first, wrong_start, still_moving, wrong_goal, crooked_line, object_in_path, path_into_body,
-    contact_not_allowed, false_samples, dropped_object, moved_in_hand, held_from_nowhere, wrong_place, too_early, swapped,
-    ends_first, missing_goal, extra_goal, not_a_number, short_rows,
-)  # fmt: skip
+    position_limit,
+    velocity_limit,
+    acceleration_spike,
+    torque_by_speed,
+    torque_by_payload,
+    jump_inside,
+    jump_between,
+    wrong_first,
+    wrong_start,
+    still_moving,
+    wrong_goal,
+    crooked_line,
+    object_in_path,
+    path_into_body,
+    contact_not_allowed,
+    false_samples,
+    dropped_object,
+    moved_in_hand,
+    held_from_nowhere,
+    wrong_place,
+    too_early,
+    swapped,
+    ends_first,
+    missing_goal,
+    extra_goal,
+    not_a_number,
+    short_rows,
+)

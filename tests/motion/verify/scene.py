@@ -84,9 +84,17 @@ class Story:
     clock: float = 0.0
 
     def move(
-        self, kind: str, action: Action, resource: str, rows: Sequence[Joints], moved: Sequence[str],
-        contacts: tuple[tuple[str, str], ...] = (), share: float = 0.95, beside: bool = False, arm: str | None = None,
-    ) -> None:  # fmt: skip
+        self,
+        kind: str,
+        action: Action,
+        resource: str,
+        rows: Sequence[Joints],
+        moved: Sequence[str],
+        contacts: tuple[tuple[str, str], ...] = (),
+        share: float = 0.95,
+        beside: bool = False,
+        arm: str | None = None,
+    ) -> None:
         """A goal with a trajectory through `rows`; `beside` runs it together with the goal before."""
         by_name = {limit.joint: limit for limit in limits()}
         points = np.array([[row[name] for name in moved] for row in rows])
@@ -107,9 +115,21 @@ class Story:
         self._add(kind, action, resource, self.clock, self.clock + lasts, placed=placed)
 
     def _add(
-        self, kind, action, resource, start, end, joints=(), contacts=(), samples=None, knots=None, tool=None,
-        arm=None, beside=False, placed=(),
-    ) -> None:  # fmt: skip
+        self,
+        kind,
+        action,
+        resource,
+        start,
+        end,
+        joints=(),
+        contacts=(),
+        samples=None,
+        knots=None,
+        tool=None,
+        arm=None,
+        beside=False,
+        placed=(),
+    ) -> None:
         number = f"g{len(self.goals) + 1:02}"
         step = f"step{len(self.goals) + 1}"
         span = Span("protocols/example.xei", 10 * len(self.goals), 10 * len(self.goals) + 8)
@@ -119,9 +139,25 @@ class Story:
             self.edges.append((self.goals[before].id, number))
         attached = self.attached if joints else ()
         self.timed.append(
-            TimedGoal(number, step, kind, resource, (resource,), self.epoch, start, end, joints, samples, knots,
-                      attached, contacts, placed, arm, tool)
-        )  # fmt: skip
+            TimedGoal(
+                number,
+                step,
+                kind,
+                resource,
+                (resource,),
+                self.epoch,
+                start,
+                end,
+                joints,
+                samples,
+                knots,
+                attached,
+                contacts,
+                placed,
+                arm,
+                tool,
+            )
+        )
         self.clock = max(self.clock, end)
 
     def finish(
@@ -180,11 +216,14 @@ def pick_and_place() -> Case:
     lower = arm.follow(carry[-1], RIGHT, TOOL, (0.0, 0.0, -0.05), 12)
     retreat = arm.follow(lower[-1], RIGHT, TOOL, back, 12)
     family = Family(
-        "tube_1_grasps", "tube_1", (
+        "tube_1_grasps",
+        "tube_1",
+        (
             ToolPose("other side", Pose((0.0, 0.0, 0.05))),
             ToolPose("as it is", Pose(foot).inverse() @ T_base_tool),
-        ), symmetric=True,
-    )  # fmt: skip
+        ),
+        symmetric=True,
+    )
     fingers = tuple(("tube_1", finger) for finger in FINGERS)
     in_rack, in_slot = (*fingers, ("tube_1", "rack_1")), (*fingers, ("tube_1", "rack_2"))
 
@@ -261,9 +300,13 @@ def tour() -> Case:
     plan, graph = story.finish(start, (), epochs)
     objects = (
         block("table", (0.95, 0.0, 0.72), (0.6, 1.2, 0.03)),
-        thing("table_b", T_world_base @ Pose((0.95, 0.0, 0.72)),
-              (Primitive(Box((0.6, 1.2, 0.03)), Pose((0.0, 0.0, 0.015))),), (0.6, 1.2, 0.03)),
-    )  # fmt: skip
+        thing(
+            "table_b",
+            T_world_base @ Pose((0.95, 0.0, 0.72)),
+            (Primitive(Box((0.6, 1.2, 0.03)), Pose((0.0, 0.0, 0.015))),),
+            (0.6, 1.2, 0.03),
+        ),
+    )
     return plan, graph, World((), objects, RobotState((), "bench_a", Pose())), robot()
 
 

@@ -88,8 +88,7 @@ def test_bounding_spheres_hold_every_shape(model: Robot) -> None:
             ball = coal.Sphere(1e-6)
             local = bodies._local[index]
             for direction in np.random.default_rng(4).normal(size=(40, 3)):
-                direction /= np.linalg.norm(direction)
-                far = body.center + direction * (body.radius + 1e-4)
+                far = body.center + direction / np.linalg.norm(direction) * (body.radius + 1e-4)
                 distance = coal.distance(
                     shape.geometry, coal.Transform3s(local.rotation, local.translation),
                     ball, coal.Transform3s(np.eye(3), far), coal.DistanceRequest(), coal.DistanceResult(),

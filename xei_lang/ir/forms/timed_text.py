@@ -8,7 +8,8 @@ from xei_lang.ir.timed import Margin, TimedGoal, TimedPlan
 def to_text(plan: TimedPlan) -> str:
     """The schedule: seconds from its start, what runs on which resource, what is held, how it was planned."""
     moving = sum(goal.knots is not None for goal in plan.goals)
-    head = f"timed plan: {plan.duration_s:.2f} s, {len(plan.goals)} goals, {moving} trajectories, seed {plan.seed}"
+    head = f"timed plan: {plan.duration_s:.2f} s, {len(plan.goals)} goals, {moving} trajectories"
+    head += f", seed {plan.seed}"
     solvers = [f"  {name}: {solver}" for name, solver in plan.solvers]
     epochs: list[str] = []
     epoch = -1
@@ -35,4 +36,5 @@ def _goal(goal: TimedGoal) -> str:
 
 
 def _margin(margin: Margin) -> str:
-    return f"  {margin.name:<14} {margin.value:8.4f}  {margin.where}  in {margin.goal_id} at {margin.time_s:.3f} s"
+    where = f"{margin.where}  in {margin.goal_id} at {margin.time_s:.3f} s"
+    return f"  {margin.name:<14} {margin.value:8.4f}  {where}"

@@ -105,22 +105,23 @@ def _advance(context: Context, bodies: Bodies, pairs: Pairs, phase: Phase, near:
         closest = min(closest, (distance, node, k))
         if distance <= contact:
             touched.add(k)
-            _touch(context, pairs, phase, near[k].row, node, distance)
+            _touch(context, pairs, phase, near[k].row, node, distance=distance)
             continue
         moved = near[k].moved
-        safe = int(np.searchsorted(moved, moved[node] + distance - contact)) - 1
+        reach = float(moved[node]) + distance - contact
+        safe = int(np.searchsorted(moved, reach)) - 1
         if safe < last:
             heappush(queue, (max(safe, node + 1), k, shape))
     _note_clearance(context, pairs, phase, near, closest)
     return measured
 
 
-def _touch(context: Context, pairs: Pairs, phase: Phase, row: int, node: int, distance: float) -> None:
+def _touch(context: Context, pairs: Pairs, phase: Phase, row: int, node: int, *, distance: float) -> None:
     goal, (a, b) = _mover(context, pairs, phase, row), pairs.pairs[row]
     if goal is not None:
         limit, time = context.options.contact_m, float(phase.times[node])
         text = f"`{a}` touches `{b}`"
-        context.found("collision", goal, time, f"{a} / {b}", text, distance, limit, "m")
+        context.found("collision", goal, time, f"{a} / {b}", text, value=distance, limit=limit, unit="m")
 
 
 def _note_clearance(

@@ -44,6 +44,7 @@ class Context:
         time_s: float,
         subject: str,
         message: str,
+        *,
         value: float = 0.0,
         limit: float = 0.0,
         unit: str = "",
@@ -54,7 +55,7 @@ class Context:
         )
 
     def margin(
-        self, name: str, value: float, where: str, goal: str, time_s: float, smallest: bool = False
+        self, name: str, value: float, where: str, goal: str, time_s: float, *, smallest: bool = False
     ) -> None:
         """Write down how near something came to its limit."""
         self.margins.add(Margin(name, value, where, goal, time_s), smallest)

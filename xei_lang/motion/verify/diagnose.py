@@ -10,11 +10,25 @@ from xei_lang.ir.goals import MotionGoalGraph
 from xei_lang.motion.verify.report import Finding, FindingKind, VerificationReport
 
 CODES: Mapping[FindingKind, str] = {
-    "structure": "XEI0850", "non_finite": "XEI0851", "goals": "XEI0852", "schedule": "XEI0853",
-    "position": "XEI0854", "velocity": "XEI0855", "acceleration": "XEI0856", "torque": "XEI0857", "jump": "XEI0858",
-    "samples": "XEI0859", "wrong_goal": "XEI0860", "linear_path": "XEI0861", "collision": "XEI0862",
-    "attachment": "XEI0863", "placement": "XEI0864", "limits": "XEI0865", "tilt": "XEI0866", "start": "XEI0867",
-}  # fmt: skip
+    "structure": "XEI0850",
+    "non_finite": "XEI0851",
+    "goals": "XEI0852",
+    "schedule": "XEI0853",
+    "position": "XEI0854",
+    "velocity": "XEI0855",
+    "acceleration": "XEI0856",
+    "torque": "XEI0857",
+    "jump": "XEI0858",
+    "samples": "XEI0859",
+    "wrong_goal": "XEI0860",
+    "linear_path": "XEI0861",
+    "collision": "XEI0862",
+    "attachment": "XEI0863",
+    "placement": "XEI0864",
+    "limits": "XEI0865",
+    "tilt": "XEI0866",
+    "start": "XEI0867",
+}
 
 
 def to_diagnostics(report: VerificationReport, graph: MotionGoalGraph) -> Diagnostics:
@@ -41,5 +55,6 @@ def _measured(finding: Finding) -> str:
         return ""
     unit = f" {finding.unit}" if finding.unit else ""
     if finding.kind == "collision":
-        return f"`{finding.subject}`: distance {finding.value * 1e3:.3g} mm, expected more than {finding.limit * 1e3:.3g} mm"
+        found, wanted = f"{finding.value * 1e3:.3g} mm", f"{finding.limit * 1e3:.3g} mm"
+        return f"`{finding.subject}`: distance {found}, expected more than {wanted}"
     return f"`{finding.subject}`: expected {finding.limit:.6g}{unit}, found {finding.value:.6g}{unit}"

@@ -51,7 +51,16 @@ def _check_same_pose(
     options = context.options
     if distance > options.held_position_m or angle > options.held_rotation_rad:
         text = f"`{name}` sits elsewhere in the hand than where it was taken"
-        context.found("attachment", goal, goal.start_s, name, text, distance, options.held_position_m, "m")
+        context.found(
+            "attachment",
+            goal,
+            goal.start_s,
+            name,
+            text,
+            value=distance,
+            limit=options.held_position_m,
+            unit="m",
+        )
 
 
 def _check_carried(context: Context, goal: TimedGoal) -> None:
@@ -81,17 +90,33 @@ def _check_detach(context: Context, goal: TimedGoal, planned: MotionGoal, action
         context.found("attachment", goal, goal.start_s, action.object, text)
         return
     symmetric = any(family.id == held.family and family.symmetric for family in context.graph.families)
-    _check_left(context, goal, action.object, action.T_base_object, end, symmetric, "where it was asked for")
+    _check_left(
+        context,
+        goal,
+        action.object,
+        action.T_base_object,
+        end,
+        symmetric=symmetric,
+        where="where it was asked for",
+    )
     stated = [item for item in goal.placed if item.object == action.object]
     if not stated:
         text = f"the plan does not say where `{action.object}` is left"
         context.found("placement", goal, goal.end_s, action.object, text)
     for item in stated:
-        _check_left(context, goal, action.object, item.T_base_object, end, False, "where the plan says")
+        _check_left(
+            context,
+            goal,
+            action.object,
+            item.T_base_object,
+            end,
+            symmetric=False,
+            where="where the plan says",
+        )
 
 
 def _check_left(
-    context: Context, goal: TimedGoal, name: str, wanted: Pose, end: Moment, symmetric: bool, where: str
+    context: Context, goal: TimedGoal, name: str, wanted: Pose, end: Moment, *, symmetric: bool, where: str
 ) -> None:
     options = context.options
     actual = end.scene.objects[name]
@@ -103,8 +128,8 @@ def _check_left(
     if distance > options.placed_position_m:
         text = f"`{name}` is left {distance * 1e3:.3g} mm from {where}"
         limit = options.placed_position_m
-        context.found("placement", goal, goal.end_s, name, text, distance, limit, "m")
+        context.found("placement", goal, goal.end_s, name, text, value=distance, limit=limit, unit="m")
     elif angle > options.placed_rotation_rad:
         text = f"`{name}` is left turned by {math.degrees(angle):.3g} deg from {where}"
         limit = options.placed_rotation_rad
-        context.found("placement", goal, goal.end_s, name, text, angle, limit, "rad")
+        context.found("placement", goal, goal.end_s, name, text, value=angle, limit=limit, unit="rad")

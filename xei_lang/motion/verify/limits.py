@@ -30,23 +30,15 @@ def effective_limits(
         for wider, value, bound in _wider(limit, known):
             text = f"the plan's {wider} limit of `{limit.joint}` is wider than the profile's"
             findings.append(Finding("limits", "", "", 0.0, limit.joint, text, value, bound))
+        bounds = [limit, *([known] if known is not None else [])]
+        lower, upper = max(item.lower for item in bounds), min(item.upper for item in bounds)
+        velocity, torque = min(item.velocity for item in bounds), min(item.torque for item in bounds)
         if joint is not None:
-            urdf = (joint.lower, joint.upper, joint.velocity, np.inf, joint.effort)
-            limit = _narrower(limit, *urdf)
-        if known is not None:
-            bounds = (known.lower, known.upper, known.velocity, known.acceleration, known.torque)
-            limit = _narrower(limit, *bounds)
-        narrowed[limit.joint] = limit
+            lower, upper = max(lower, joint.lower), min(upper, joint.upper)
+            velocity, torque = min(velocity, joint.velocity), min(torque, joint.effort)
+        acceleration = min(item.acceleration for item in bounds)
+        narrowed[limit.joint] = JointLimit(limit.joint, lower, upper, velocity, acceleration, torque)
     return narrowed, tuple(findings)
-
-
-def _narrower(
-    limit: JointLimit, lower: float, upper: float, velocity: float, acceleration: float, torque: float
-) -> JointLimit:
-    return JointLimit(
-        limit.joint, max(limit.lower, lower), min(limit.upper, upper), min(limit.velocity, velocity),
-        min(limit.acceleration, acceleration), min(limit.torque, torque),
-    )  # fmt: skip
 
 
 def _wider(limit: JointLimit, known: PlanningLimit | None) -> list[tuple[str, float, float]]:
@@ -72,7 +64,7 @@ def check_limits(context: Context) -> None:
         for column, joint in enumerate(goal.joints):
             limit = context.limits.get(joint)
             if limit is not None:
-                _check_joint(context, goal, limit, times, q[:, column], v[:, column], a[:, column])
+                _check_joint(context, goal, limit, times, q[:, column], v=v[:, column], a=a[:, column])
 
 
 def _all_sides(motion: Motion, rate_hz: float) -> tuple[Array, Array, Array, Array]:
@@ -85,7 +77,7 @@ def _all_sides(motion: Motion, rate_hz: float) -> tuple[Array, Array, Array, Arr
 
 
 def _check_joint(
-    context: Context, goal: TimedGoal, limit: JointLimit, times: Array, q: Array, v: Array, a: Array
+    context: Context, goal: TimedGoal, limit: JointLimit, times: Array, q: Array, *, v: Array, a: Array
 ) -> None:
     options, planned = context.options, context.planned(goal)
     fraction = planned.action.speed_fraction if planned and isinstance(planned.action, MoveTo) else 1.0
@@ -97,7 +89,9 @@ def _check_joint(
     if max(below[worst], above[worst]) > options.position_tolerance:
         time = goal.start_s + float(times[worst])
         text = f"`{limit.joint}` leaves its range"
-        context.found("position", goal, time, limit.joint, text, float(q[worst]), bound, unit)
+        context.found(
+            "position", goal, time, limit.joint, text, value=float(q[worst]), limit=bound, unit=unit
+        )
     half = 0.5 * (limit.upper - limit.lower)
     if half > 0.0:
         ratio = np.abs(q - (limit.lower + half)) / half
@@ -115,7 +109,14 @@ def _check_joint(
         context.margin(kind, value / allowed if allowed > 0.0 else 0.0, limit.joint, goal.id, time)
         if value > allowed * ratio_limit + 1e-9:
             context.found(
-                kind, goal, time, limit.joint, f"`{limit.joint}` passes its {kind} limit", value, allowed, per
+                kind,
+                goal,
+                time,
+                limit.joint,
+                f"`{limit.joint}` passes its {kind} limit",
+                value=value,
+                limit=allowed,
+                unit=per,
             )
 
 
@@ -136,9 +137,14 @@ def _check_inside(context: Context, goal: TimedGoal, motion: Motion) -> None:
     inner = motion.times[1:-1]
     if len(inner):
         left, right = motion.at(inner, left=True), motion.at(inner)
-        _report_jump(context, goal, inner, np.abs(right[0] - left[0]), options.jump_position, "jumps")
+        _report_jump(context, goal, inner, np.abs(right[0] - left[0]), options.jump_position, what="jumps")
         _report_jump(
-            context, goal, inner, np.abs(right[1] - left[1]), options.jump_velocity, "changes speed at once"
+            context,
+            goal,
+            inner,
+            np.abs(right[1] - left[1]),
+            options.jump_velocity,
+            what="changes speed at once",
         )
     if len(motion.breaks) > 2:
         u = np.diff(motion.breaks)[:-1, None]
@@ -150,20 +156,20 @@ def _check_inside(context: Context, goal: TimedGoal, motion: Motion) -> None:
         _, speed, _ = motion.phase(times)
         starts = motion.coefficients[1:, 0]
         first = motion.coefficients[1:, 1] if motion.coefficients.shape[1] > 1 else np.zeros_like(starts)
-        _report_jump(context, goal, times, np.abs(starts - ends), options.jump_position, "jumps")
+        _report_jump(context, goal, times, np.abs(starts - ends), options.jump_position, what="jumps")
         change = np.abs(first - slopes) * np.abs(speed)[:, None]
-        _report_jump(context, goal, times, change, options.jump_velocity, "changes speed at once")
+        _report_jump(context, goal, times, change, options.jump_velocity, what="changes speed at once")
 
 
 def _report_jump(
-    context: Context, goal: TimedGoal, times: Array, sizes: Array, allowed: float, what: str
+    context: Context, goal: TimedGoal, times: Array, sizes: Array, allowed: float, *, what: str
 ) -> None:
     for column, joint in enumerate(goal.joints):
         worst = int(np.argmax(sizes[:, column]))
         size = float(sizes[worst, column])
         if size > allowed:
             time = goal.start_s + float(times[worst])
-            context.found("jump", goal, time, joint, f"`{joint}` {what}", size, allowed)
+            context.found("jump", goal, time, joint, f"`{joint}` {what}", value=size, limit=allowed)
 
 
 def _next_starts(plan: TimedPlan) -> Mapping[tuple[str, str], TimedGoal]:
@@ -196,16 +202,16 @@ def _check_ends(
             kind: FindingKind = "start" if first_of[joint] == goal.id else "jump"
             where = "the plan's start" if kind == "start" else "where the goal before left it"
             text = f"`{joint}` does not begin at {where}"
-            context.found(kind, goal, goal.start_s, joint, text, float(q0[column]), held)
+            context.found(kind, goal, goal.start_s, joint, text, value=float(q0[column]), limit=held)
         carried = _carried_speed(context, goal, joint)
         if abs(float(v0[column]) - carried) > options.jump_velocity:
             text = f"`{joint}` is under way when the goal starts"
-            context.found("jump", goal, goal.start_s, joint, text, float(v0[column]), carried)
+            context.found("jump", goal, goal.start_s, joint, text, value=float(v0[column]), limit=carried)
         after = following.get((goal.id, joint))
         handed_over = after is not None and after.start_s - goal.end_s <= options.time_tolerance_s
         if not handed_over and abs(float(v1[column])) > options.jump_velocity:
             text = f"`{joint}` is still moving when the goal ends"
-            context.found("jump", goal, goal.end_s, joint, text, float(v1[column]), 0.0)
+            context.found("jump", goal, goal.end_s, joint, text, value=float(v1[column]), limit=0.0)
 
 
 def _first_goals(plan: TimedPlan) -> dict[str, str]:

@@ -65,7 +65,7 @@ def _check_joints(context: Context, goal: TimedGoal, target: JointTarget) -> Non
         value = _end(context, goal, joint)
         if abs(value - asked) > context.options.joint_tolerance:
             text = f"`{joint}` does not reach `{target.name}`"
-            context.found("wrong_goal", goal, goal.end_s, joint, text, value, asked)
+            context.found("wrong_goal", goal, goal.end_s, joint, text, value=value, limit=asked)
 
 
 def expected_tools(family: Family, target: ToolTarget, tool: Pose) -> list[tuple[str, Pose]]:
@@ -110,12 +110,26 @@ def _check_tool(context: Context, goal: TimedGoal, target: ToolTarget, tool: Pos
     if distance > target.position_tolerance_m:
         text = f"the tool ends {distance * 1e3:.3g} mm from its target"
         context.found(
-            "wrong_goal", goal, goal.end_s, family.id, text, distance, target.position_tolerance_m, "m"
+            "wrong_goal",
+            goal,
+            goal.end_s,
+            family.id,
+            text,
+            value=distance,
+            limit=target.position_tolerance_m,
+            unit="m",
         )
     if angle > target.rotation_tolerance_rad:
         text = f"the tool ends turned by {math.degrees(angle):.3g} deg from its target"
         context.found(
-            "wrong_goal", goal, goal.end_s, family.id, text, angle, target.rotation_tolerance_rad, "rad"
+            "wrong_goal",
+            goal,
+            goal.end_s,
+            family.id,
+            text,
+            value=angle,
+            limit=target.rotation_tolerance_rad,
+            unit="rad",
         )
 
 
@@ -127,7 +141,9 @@ def _check_stated_tool(context: Context, goal: TimedGoal, planned: MotionGoal) -
     if distance > context.options.stated_tool_m or angle > context.options.stated_tool_rad:
         text = "the plan states another tool pose than its joints reach"
         limit = context.options.stated_tool_m
-        context.found("wrong_goal", goal, goal.end_s, f"{arm} tool", text, distance, limit, "m")
+        context.found(
+            "wrong_goal", goal, goal.end_s, f"{arm} tool", text, value=distance, limit=limit, unit="m"
+        )
 
 
 def _check_grip(context: Context, goal: TimedGoal, action: Grip) -> None:
@@ -135,7 +151,16 @@ def _check_grip(context: Context, goal: TimedGoal, action: Grip) -> None:
     gap = sum(_end(context, goal, joint) for joint in joints)
     if abs(gap - action.opening_m) > context.options.opening_tolerance_m:
         text = f"the jaws of the {action.arm} gripper end {gap * 1e3:.3g} mm apart"
-        context.found("wrong_goal", goal, goal.end_s, f"{action.arm} gap", text, gap, action.opening_m, "m")
+        context.found(
+            "wrong_goal",
+            goal,
+            goal.end_s,
+            f"{action.arm} gap",
+            text,
+            value=gap,
+            limit=action.opening_m,
+            unit="m",
+        )
 
 
 def _check_slide(context: Context, goal: TimedGoal, action: SlideMove) -> None:
@@ -143,7 +168,9 @@ def _check_slide(context: Context, goal: TimedGoal, action: SlideMove) -> None:
     height = _end(context, goal, joint) - context.robot.joints[joint].lower
     if abs(height - action.height_m) > context.options.slide_tolerance_m:
         text = f"the slide ends at {height * 1e3:.4g} mm"
-        context.found("wrong_goal", goal, goal.end_s, joint, text, height, action.height_m, "m")
+        context.found(
+            "wrong_goal", goal, goal.end_s, joint, text, value=height, limit=action.height_m, unit="m"
+        )
 
 
 def _rows(context: Context, goal: TimedGoal) -> tuple[Array, Array]:
@@ -170,7 +197,7 @@ def _check_line(context: Context, goal: TimedGoal, arm: str) -> None:
     context.margin("linear_path", value / limit, link, goal.id, time)
     if value > limit:
         text = f"the tool leaves its straight line by {value * 1e3:.3g} mm"
-        context.found("linear_path", goal, time, link, text, value, limit, "m")
+        context.found("linear_path", goal, time, link, text, value=value, limit=limit, unit="m")
 
 
 def _check_tilt(context: Context, goal: TimedGoal, bound_rad: float) -> None:
@@ -186,5 +213,12 @@ def _check_tilt(context: Context, goal: TimedGoal, bound_rad: float) -> None:
         if tilt[worst] > bound_rad:
             text = f"`{held.object}` tilts"
             context.found(
-                "tilt", goal, float(times[worst]), held.object, text, float(tilt[worst]), bound_rad, "rad"
+                "tilt",
+                goal,
+                float(times[worst]),
+                held.object,
+                text,
+                value=float(tilt[worst]),
+                limit=bound_rad,
+                unit="rad",
             )

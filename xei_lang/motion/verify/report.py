@@ -8,9 +8,25 @@ from typing import Literal
 from xei_lang.ir.timed import Margin
 
 FindingKind = Literal[
-    "structure", "non_finite", "goals", "schedule", "limits", "start", "jump", "position", "velocity", "acceleration",
-    "torque", "samples", "wrong_goal", "linear_path", "tilt", "collision", "attachment", "placement",
-]  # fmt: skip
+    "structure",
+    "non_finite",
+    "goals",
+    "schedule",
+    "limits",
+    "start",
+    "jump",
+    "position",
+    "velocity",
+    "acceleration",
+    "torque",
+    "samples",
+    "wrong_goal",
+    "linear_path",
+    "tilt",
+    "collision",
+    "attachment",
+    "placement",
+]
 
 
 @dataclass(frozen=True, slots=True)

@@ -178,7 +178,8 @@ def _read_joint(element: ElementTree.Element, columns: dict[str, int]) -> Joint:
     parent, child = element.find("parent"), element.find("child")
     origin, axis, limit = element.find("origin"), element.find("axis"), element.find("limit")
     mimic = element.find("mimic")
-    assert parent is not None and child is not None
+    assert parent is not None
+    assert child is not None
     direction = _numbers(axis.get("xyz") if axis is not None else None, "1 0 0")
 
     def bound(key: str, default: float) -> float:

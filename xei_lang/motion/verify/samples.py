@@ -28,7 +28,7 @@ def check_samples(context: Context) -> None:
         tolerances = (options.sample_position, options.sample_velocity, options.sample_acceleration)
         names = ("position", "velocity", "acceleration")
         for name, given, low, high, slack in zip(names, rows, before, after, tolerances, strict=True):
-            _compare(context, goal, name, given, (low, high), slack)
+            _compare(context, goal, name, given, (low, high), slack=slack)
 
 
 def _rows(samples: Samples) -> tuple[Array, Array, Array]:
@@ -38,7 +38,7 @@ def _rows(samples: Samples) -> tuple[Array, Array, Array]:
 
 
 def _compare(
-    context: Context, goal: TimedGoal, name: str, given: Array, sides: tuple[Array, Array], slack: float
+    context: Context, goal: TimedGoal, name: str, given: Array, sides: tuple[Array, Array], *, slack: float
 ) -> None:
     assert goal.samples is not None
     lower, upper = np.minimum(*sides), np.maximum(*sides)
@@ -48,4 +48,4 @@ def _compare(
         joint, time = goal.joints[column], goal.samples.times_s[row]
         text = f"the sampled {name} of `{joint}` is not that of the knots"
         exact = float(sides[1][row, column])
-        context.found("samples", goal, time, joint, text, float(given[row, column]), exact)
+        context.found("samples", goal, time, joint, text, value=float(given[row, column]), limit=exact)

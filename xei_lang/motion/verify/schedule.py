@@ -57,7 +57,16 @@ def check_schedule(context: Context) -> None:
             continue
         if second.start_s < first.end_s - slack or place[after] < place[before]:
             text = f"it starts at {second.start_s:.6g} s, before `{before}` has ended"
-            context.found("schedule", second, second.start_s, before, text, second.start_s, first.end_s, "s")
+            context.found(
+                "schedule",
+                second,
+                second.start_s,
+                before,
+                text,
+                value=second.start_s,
+                limit=first.end_s,
+                unit="s",
+            )
     epochs = {epoch.index: epoch for epoch in context.graph.epochs}
     for goal in context.plan.goals:
         planned = context.planned(goal)
@@ -73,10 +82,19 @@ def _check_duration(context: Context, goal: TimedGoal, planned: MotionGoal) -> N
     lasts = goal.end_s - goal.start_s
     slack = context.options.time_tolerance_s
     if lasts < shortest - slack:
-        context.found("schedule", goal, goal.start_s, goal.id, "it is too short", lasts, shortest, "s")
+        context.found(
+            "schedule", goal, goal.start_s, goal.id, "it is too short", value=lasts, limit=shortest, unit="s"
+        )
     if lasts > planned.max_duration_s + slack:
         context.found(
-            "schedule", goal, goal.start_s, goal.id, "it is too long", lasts, planned.max_duration_s, "s"
+            "schedule",
+            goal,
+            goal.start_s,
+            goal.id,
+            "it is too long",
+            value=lasts,
+            limit=planned.max_duration_s,
+            unit="s",
         )
 
 

@@ -90,10 +90,11 @@ def build_timeline(
     world: World,
     robot: Robot,
     about: RobotDescription,
+    *,
     rate_hz: float,
 ) -> Timeline:
     """Walk through the plan's events in time order. The plan must be structurally sound."""
-    return _Walk(plan, graph, world, robot, about, rate_hz).run()
+    return _Walk(plan, graph, world, robot, about, rate_hz=rate_hz).run()
 
 
 class _Walk:
@@ -104,6 +105,7 @@ class _Walk:
         world: World,
         robot: Robot,
         about: RobotDescription,
+        *,
         rate_hz: float,
     ) -> None:
         self.plan, self.robot, self.rate_hz = plan, robot, rate_hz

@@ -41,7 +41,9 @@ def check_torque(context: Context) -> None:
                 reported.add((goal.id, joint))
                 unit = "N" if context.robot.joints[joint].kind == "prismatic" else "N m"
                 text = f"`{joint}` needs more torque than it may give"
-                context.found("torque", goal, time, joint, text, value, float(bounds[column]), unit)
+                context.found(
+                    "torque", goal, time, joint, text, value=value, limit=float(bounds[column]), unit=unit
+                )
 
 
 def _torques(pool: Any, phase: Phase) -> Array:

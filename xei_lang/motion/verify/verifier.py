@@ -49,7 +49,7 @@ def verify_timed(
     if any(finding.kind in ("structure", "non_finite") for finding in findings):
         return VerificationReport(_sorted(findings), (), Checked(goals=len(plan.goals)))
     limits, wider = effective_limits(plan, profile_limits, model)
-    timeline = build_timeline(plan, graph, world, model, robot, options.rate_hz)
+    timeline = build_timeline(plan, graph, world, model, robot, rate_hz=options.rate_hz)
     context = Context(
         plan, graph, world, model, robot, profile_limits, options, timeline, limits, [*findings, *wider]
     )
