@@ -3,10 +3,13 @@ from."""
 
 from __future__ import annotations
 
+from random import Random
+
 import pytest
 
+from tests.motion.verify.fault_bench import Bench
 from tests.motion.verify.faults import MAKERS, inject
-from tests.motion.verify.scene import CASES, Case
+from tests.motion.verify.scene import CASES, Case, arm_of
 from xei_lang.motion.verify import verify_timed
 
 FAULTS, PART = 1000, 50
@@ -44,11 +47,6 @@ def _found(seed: int) -> bool:
 
 
 def _fits(maker, case: Case) -> bool:
-    from random import Random
-
-    from tests.motion.verify.faults import Bench
-    from tests.motion.verify.scene import arm_of
-
     plan, graph, world, robot = case
     benches = (Bench(plan, graph, world, robot, arm_of(robot.urdf_text), Random(seed)) for seed in range(10))
     return any(maker(bench) is not None for bench in benches)

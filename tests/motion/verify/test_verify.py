@@ -4,13 +4,18 @@ says."""
 from __future__ import annotations
 
 from dataclasses import replace
+from random import Random
 
 import coal
 import numpy as np
 import pinocchio as pin
 import pytest
 
-from tests.motion.verify import faults, maker
+from tests.motion.verify import maker
+from tests.motion.verify.fault_bench import Bench
+from tests.motion.verify.fault_paths import bump, resampled
+from tests.motion.verify.faults_motion import velocity_limit
+from tests.motion.verify.faults_touch import object_in_path
 from tests.motion.verify.scene import arm_of, limits, pick_and_place, robot, tour
 from xei_lang.diagnostics import Span
 from xei_lang.ir.geometry import Pose
@@ -99,10 +104,10 @@ def test_bounding_spheres_hold_every_shape(model: Robot) -> None:
 def test_advancement_finds_what_a_look_at_every_instant_finds() -> None:
     """A thin plate that the hand brushes for a few milliseconds only, wherever along its way it is put."""
     plan, graph, world, about = pick_and_place()
-    case = faults.Bench(plan, graph, world, about, arm_of(about.urdf_text), faults.Random(0))
+    case = Bench(plan, graph, world, about, arm_of(about.urdf_text), Random(0))
     found = sum(
         any(f.kind == "collision" for f in verify_timed(fault.plan, graph, fault.world, about).findings)
-        for fault in (faults.object_in_path(replace(case, random=faults.Random(seed))) for seed in range(20))
+        for fault in (object_in_path(replace(case, random=Random(seed))) for seed in range(20))
         if fault is not None
     )
     assert found == 20
@@ -112,7 +117,7 @@ def test_small_errors_are_forgiven() -> None:
     plan, graph, world, about = pick_and_place()
     first = next(goal for goal in plan.goals if goal.kind == "open_gripper")
     assert first.knots is not None
-    nudged = faults.resampled(first, faults.bump(first.knots, 0, 1e-6))
+    nudged = resampled(first, bump(first.knots, 0, 1e-6))
     goals = tuple(nudged if goal.id == first.id else goal for goal in plan.goals)
     assert verify_timed(replace(plan, goals=goals), graph, world, about).ok
 
@@ -156,8 +161,8 @@ def test_a_held_object_that_tilts_is_found_where_a_bound_is_given() -> None:
     assert verify_timed(plan, upright, world, about, options=options).ok
     carry = next(goal for goal in plan.goals if goal.id == "g07")
     assert carry.knots is not None
-    bent = faults.resampled(carry, faults.bump(carry.knots, 5, 0.1))
-    case = faults.Bench(plan, upright, world, about, arm_of(about.urdf_text), faults.Random(0))
+    bent = resampled(carry, bump(carry.knots, 5, 0.1))
+    case = Bench(plan, upright, world, about, arm_of(about.urdf_text), Random(0))
     kinds = {
         f.kind for f in verify_timed(case.with_goal(bent), upright, world, about, options=options).findings
     }
@@ -166,8 +171,8 @@ def test_a_held_object_that_tilts_is_found_where_a_bound_is_given() -> None:
 
 def test_findings_become_diagnostics_at_the_step() -> None:
     plan, graph, world, about = pick_and_place()
-    case = faults.Bench(plan, graph, world, about, arm_of(about.urdf_text), faults.Random(1))
-    fault = faults.velocity_limit(case)
+    case = Bench(plan, graph, world, about, arm_of(about.urdf_text), Random(1))
+    fault = velocity_limit(case)
     assert fault is not None
     report = verify_timed(fault.plan, graph, fault.world, about)
     said = next(d for d in to_diagnostics(report, graph) if d.code == "XEI0855")
