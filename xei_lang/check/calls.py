@@ -23,7 +23,6 @@ from xei_lang.check.values import (
     Val,
     Word,
     show,
-    show_place,
     to_plan,
 )
 from xei_lang.diagnostics import did_you_mean
@@ -31,6 +30,7 @@ from xei_lang.ir.skill_plan import Argument, Value
 from xei_lang.profiles.model import ArgSpec, SkillSpec
 from xei_lang.quantity import DimensionError, Quantity, QuantityError, parse_quantity
 from xei_lang.syntax.ast import Arg, Call, Expression
+from xei_lang.world.places import accepts, place_text
 
 
 @dataclass(frozen=True, slots=True)
@@ -229,23 +229,23 @@ class Calls:
             thing, place = values.get(moved), values.get(target)
             if not isinstance(thing, ObjectValue) or not isinstance(place, PlaceValue) or target not in given:
                 continue
-            grid = place.owner.registered.slots if place.owner.registered and place.kind == "slot" else None
-            if grid is None or thing.registered is None or not grid.accepts:
+            owner = place.owner.registered
+            if owner is None or thing.registered is None:
                 continue
-            if not set(grid.accepts) & set(thing.registered.roles):
-                self._refused(thing, place, grid.accepts, given[target])
+            if not accepts(owner, place.ref, thing.registered.roles):
+                self._refused(thing, place, given[target])
                 return False
         return True
 
-    def _refused(self, thing: ObjectValue, place: PlaceValue, accepts: tuple[str, ...], arg: Arg) -> None:
+    def _refused(self, thing: ObjectValue, place: PlaceValue, arg: Arg) -> None:
         assert thing.registered is not None
         assert place.owner.registered is not None
         grid = place.owner.registered.slots
         self._reporter.report(
             "XEI0310",
-            f"`{show_place(place.ref)}` does not accept `{thing.name}`",
+            f"`{place_text(place.ref)}` does not accept `{thing.name}`",
             arg.value.span,
-            f"accepts {listed(accepts)}; `{thing.name}` has the roles {', '.join(thing.registered.roles)}",
+            f"accepts {listed(grid.accepts if grid else ())}; `{thing.name}` has the roles {', '.join(thing.registered.roles)}",
             notes=(self._reporter.rule(grid.span),) if grid else (),
         )
 

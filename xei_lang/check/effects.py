@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from xei_lang.check.state import EITHER, NOTHING, State
-from xei_lang.check.values import show_place
 from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, Value
 from xei_lang.profiles.model import SkillSpec
 from xei_lang.syntax.ast import (
@@ -20,6 +19,7 @@ from xei_lang.syntax.ast import (
     StringLit,
     Update,
 )
+from xei_lang.world.places import place_text
 
 _ARM_PARTS = {
     "move_to": "arm",
@@ -84,7 +84,7 @@ def _subject(value: Value) -> str:
         case ObjectRef():
             return value.name
         case PlaceRef():
-            return show_place(value)
+            return place_text(value)
         case _:
             return str(value)
 

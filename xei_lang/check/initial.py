@@ -6,6 +6,7 @@ from xei_lang.check.registry import Registry
 from xei_lang.check.state import NOTHING, State
 from xei_lang.ir.skill_plan import PlaceRef
 from xei_lang.profiles.model import LabObject
+from xei_lang.world.places import initial_place
 
 
 def initial_state(registry: Registry) -> State:
@@ -26,14 +27,8 @@ def initial_state(registry: Registry) -> State:
 
 
 def _place(thing: LabObject, registry: Registry) -> PlaceRef | None:
-    prior = thing.prior
-    if prior is None:
-        return None
-    owner = registry.objects.get(prior.in_object or prior.frame)
-    if owner is None or owner is thing:
-        return None
-    if not prior.in_object:
-        return PlaceRef(owner.name, "surface", "")
-    if any(spot.name == prior.in_key for spot in owner.spots):
-        return PlaceRef(owner.name, "spot", prior.in_key)
-    return PlaceRef(owner.name, "slot" if prior.in_key else "surface", prior.in_key)
+    place = initial_place(thing)
+    if place is not None or thing.prior is None:
+        return place
+    bench = registry.objects.get(thing.prior.frame)
+    return None if bench is None or bench is thing else PlaceRef(bench.name, "surface", "")

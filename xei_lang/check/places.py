@@ -8,6 +8,7 @@ from xei_lang.check.expectation import Expectation
 from xei_lang.check.report import Reporter, listed, meant
 from xei_lang.check.values import POISON, ListValue, ObjectValue, PlaceValue, Val, show
 from xei_lang.diagnostics import Span, did_you_mean
+from xei_lang.profiles.grid import slot_keys
 from xei_lang.profiles.model import LabObject, SlotGrid
 from xei_lang.syntax.ast import Expression
 
@@ -15,11 +16,6 @@ METHODS = ("slot", "row", "column", "spot")
 PROPERTIES = ("slots", "spots")
 
 SURFACE_ROLE = "surface"
-
-
-def slot_keys(grid: SlotGrid) -> tuple[str, ...]:
-    """The names of all slots, row by row: A1, A2, ... B1, ..."""
-    return tuple(f"{row}{column}" for row in grid.rows for column in range(1, grid.columns + 1))
 
 
 class Places:

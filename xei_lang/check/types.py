@@ -23,13 +23,13 @@ from xei_lang.check.values import (
     kind,
     number,
     show,
-    show_place,
 )
 from xei_lang.diagnostics import Applicability
 from xei_lang.ir.skill_plan import StationRef
 from xei_lang.quantity import TYPE_DIMENSIONS, UNITS, Quantity, quantity
 from xei_lang.quantity.dimension import NUMBER, Dimension
 from xei_lang.syntax.ast import Expression, QuantityLit, StringLit
+from xei_lang.world.places import place_text
 
 VALUE_TYPES = (*TYPE_DIMENSIONS, "Int", "Float", "Bool", "String", "Arm", "Place", "Station")
 """The types that a parameter may have besides role expressions; `Pose` and tables come with later versions.
@@ -145,7 +145,7 @@ class Types:
         name = state.occupant(place.ref)
         if name is not None:
             return ObjectValue(name, self._registry.objects.get(name))
-        shown = show_place(place.ref)
+        shown = place_text(place.ref)
         self._reporter.report(
             "XEI0311",
             f"nothing is known to stand in `{shown}`, but {expected.what} takes {expected.noun}",

@@ -19,6 +19,7 @@ from xei_lang.quantity import Quantity
 from xei_lang.quantity.dimension import NUMBER
 from xei_lang.quantity.text import format_magnitude
 from xei_lang.syntax.ast import TypeExpr
+from xei_lang.world.places import place_text
 
 
 class Poison(Enum):
@@ -117,7 +118,7 @@ def show(value: Val) -> str:  # noqa: PLR0911 one return for each kind of value
         case ObjectValue() | StationRef():
             return value.name
         case PlaceValue():
-            return show_place(value.ref)
+            return place_text(value.ref)
         case ListValue():
             shown = [show(item) for item in value.items[:3]]
             return f"[{', '.join(shown)}{', ...' if len(value.items) > 3 else ''}]"
@@ -127,11 +128,6 @@ def show(value: Val) -> str:  # noqa: PLR0911 one return for each kind of value
             return "?"
         case Quantity():
             return str(value)
-
-
-def show_place(place: PlaceRef) -> str:
-    """A place as it is written: `rack_1.slot("A1")`."""
-    return f'{place.object}.{place.kind}("{place.key}")' if place.key else place.object
 
 
 def kind(value: Val) -> str:  # noqa: PLR0911 one return for each kind of value
