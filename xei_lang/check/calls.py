@@ -245,7 +245,8 @@ class Calls:
             "XEI0310",
             f"`{place_text(place.ref)}` does not accept `{thing.name}`",
             arg.value.span,
-            f"accepts {listed(grid.accepts if grid else ())}; `{thing.name}` has the roles {', '.join(thing.registered.roles)}",
+            f"accepts {listed(grid.accepts if grid else ())}; "
+            f"`{thing.name}` has the roles {', '.join(thing.registered.roles)}",
             notes=(self._reporter.rule(grid.span),) if grid else (),
         )
 

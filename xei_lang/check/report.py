@@ -58,7 +58,7 @@ class Reporter:
         hand.
         """
         source = self._sources.get(span.file)
-        place = f"{span.file}:{source.line_number(span.start)}" if source else span.file
+        place = f"{span.file}:{source.line_number(span.start)}" if source and source.text else span.file
         return f"rule: {place}"
 
     @contextmanager
