@@ -1,7 +1,7 @@
 """Checking a long protocol, beside parsing it: checking must grow with its length and no faster.
 
-Run by hand: `python tests/bench/bench_check.py` (10,000 steps); `--small` (400 steps) only shows that it still runs.
-Times are CPU times of one run each; the profile is loaded before.
+Run by hand: `python tests/bench/bench_check.py` (10,000 steps); `--small` (400 steps) only shows that it
+still runs. Times are CPU times of one run each; the profile is loaded before.
 """
 
 from __future__ import annotations
@@ -56,9 +56,8 @@ def main() -> None:
             source = Source("bench.xei", f'protocol p {{\n profile "openarm_bench"\n{make(steps)}\n}}')
             (module, _), parse_s = timed(lambda text=source: parser.module(text))
             assert module is not None
-            options = CheckOptions()
             (plan, found), check_s = timed(
-                lambda tree=module, text=source: check_module(tree, text, profile, options)
+                lambda tree=module, text=source: check_module(tree, text, profile, CheckOptions())
             )
             assert plan is not None, found
             assert verify_plan(plan) == ()
