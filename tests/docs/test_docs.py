@@ -3,10 +3,10 @@
 The blocks of a page, in their order:
 
 - `xei`: a whole file is written to `protocols/<its name>.xei` of a copy of the project, a piece of a protocol
-  is put inside one of the bench. It is checked, and must be clean or say exactly what the `text` block right
+  is put inside one of the bench. It is checked, and must be clean or say exactly what the `text` block
   behind it shows; unless the next block is an `sh` block that names its file.
-- `sh`: what calls xei (and does not first install it) is run in that copy, and prints what the `text` block right behind it shows. Numbers
-  that depend on the machine or on the plan that was found (durations, distances) are not compared.
+- `sh`: what calls xei (and does not install it) is run in that copy, and prints what the `text` block behind it
+  shows. Numbers that depend on the machine or on the plan that was found are not compared.
 - `json`: is written to the file that was named last before it.
 - `yaml`: is put behind the skills of the bench's skill bank.
 
@@ -49,7 +49,7 @@ class Block:
     line: int
     file: str
     output: re.Match[str] | None
-    """The `text` block right behind it."""
+    """The `text` block behind it."""
     next_command: str
     """The body of the block behind it, where that is an `sh` block."""
 
@@ -62,7 +62,7 @@ def project(tmp_path: Path) -> Path:
     return tmp_path / "xei"
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem.lower())
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
 def test_a_page_holds_what_it_says(
     page: Path, project: Path, update_golden: bool, tmp_path_factory: pytest.TempPathFactory
 ) -> None:
@@ -107,7 +107,7 @@ def _blocks(text: str) -> Iterator[Block]:
         between = text[block.end() : follower.start()] if follower else "-"
         line = text.count("\n", 0, block.start()) + 1
         named = re.findall(r"`([a-z]+\.json)`", text[: block.start()])
-        output = follower if is_output and not between.strip() else None
+        output = follower if is_output and "\n#" not in between else None
         command = follower["body"] if follower and follower["language"] == "sh" else ""
         yield Block(block["language"], block["body"], line, named[-1] if named else "", output, command)
 
