@@ -5,8 +5,8 @@ The blocks of a page, in their order:
 - `xei`: a whole file is written to `protocols/<its name>.xei` of a copy of the project, a piece of a protocol
   is put inside one of the bench. It is checked, and must be clean or say exactly what the `text` block
   behind it shows; unless the next block is an `sh` block that names its file.
-- `sh`: what calls xei (and does not install it) is run in that copy, and prints what the `text` block behind it
-  shows. Numbers that depend on the machine or on the plan that was found are not compared.
+- `sh`: what calls xei (and does not install it) is run in that copy, and prints what the `text` block behind
+  it shows. Numbers that depend on the machine or on the plan that was found are not compared.
 - `json`: is written to the file that was named last before it.
 - `yaml`: is put behind the skills of the bench's skill bank.
 
