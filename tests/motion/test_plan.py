@@ -1,14 +1,18 @@
-"""Plans of the real bench, from lowered goals to timed motion, checked by the verifier that shares no code with them."""
+"""Plans of the real bench, from lowered goals to timed motion, checked by the verifier that shares no code
+with them.
+"""
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
 
 from tests.motion.sequence.bench import (
+    DESCRIPTION,
     SRDF,
     URDF,
     bench,
@@ -24,11 +28,13 @@ from tests.motion.sequence.bench import (
     station,
 )
 from xei_lang.diagnostics import Diagnostic
-from xei_lang.ir.goals import Detach
+from xei_lang.ir.goals import Detach, SlideMove
 from xei_lang.ir.skill_plan import SkillPlan
 from xei_lang.ir.timed import TimedGoal, TimedPlan
 from xei_lang.ir.world import World
+from xei_lang.motion.plan import plan_motion
 from xei_lang.motion.verify import RobotDescription, VerifyOptions, verify_timed
+from xei_lang.quantity import parse_quantity
 
 
 @cache
@@ -48,7 +54,7 @@ def findings(timed: TimedPlan, steps: SkillPlan, world: World, upright: bool = T
     tilt = profile.calibration.spill_tilt_rad if upright else None
     report = verify_timed(
         timed, goals(steps, profile, world), world, RobotDescription(URDF, SRDF),
-        profile.calibration.limits, VerifyOptions(upright_tilt_rad=tilt),
+        profile.calibration.limits, options=VerifyOptions(upright_tilt_rad=tilt),
     )  # fmt: skip
     return [f"{item.goal_id}: {item.message}" for item in report.findings]
 
@@ -78,7 +84,9 @@ def test_the_grasp_of_the_pick_is_kept_until_the_tube_stands() -> None:
 
 def test_a_round_tube_may_turn_where_it_is_set_down_but_not_lean() -> None:
     profile, world = bench()
-    detach = next(item for item in goals(put_on_rack(), profile, world).goals if isinstance(item.action, Detach))
+    detach = next(
+        item for item in goals(put_on_rack(), profile, world).goals if isinstance(item.action, Detach)
+    )
     assert isinstance(detach.action, Detach)
     placed = goal(put(), detach.id).placed[0].T_base_object
     wanted = detach.action.T_base_object
@@ -162,7 +170,12 @@ def test_the_wrong_arm_names_the_other_one() -> None:
 
 def test_a_hemmed_in_object_counts_what_its_grasps_touch() -> None:
     _, world = bench()
-    around = {"pipette_1": (0.055, 0.0), "beaker_1": (-0.07, 0.0), "waste_bin": (0.0, -0.095), "beaker_2": (0.0, 0.07)}
+    around = {
+        "pipette_1": (0.055, 0.0),
+        "beaker_1": (-0.07, 0.0),
+        "waste_bin": (0.0, -0.095),
+        "beaker_2": (0.0, 0.07),
+    }
     for name, (x_m, y_m) in around.items():
         world = beside(world, name, "bottle_1", x_m, y_m)
     said = refusal(take("bottle_1"), world)
@@ -172,3 +185,38 @@ def test_a_hemmed_in_object_counts_what_its_grasps_touch() -> None:
     assert "touch `beaker_1`" in said.notes[0]
     counts = [int(word) for word in said.notes[0].split() if word.isdigit()]
     assert counts[0] == sum(counts[1:])
+
+
+def test_a_slide_height_outside_the_stroke_says_what_the_stroke_is() -> None:
+    profile, world = bench()
+    graph = goals(plan(("slide_to", {"height": parse_quantity("500 mm")})), profile, world)
+    last = replace(graph.goals[-1], action=SlideMove(0.7))
+    graph = replace(graph, goals=(*graph.goals[:-1], last))
+    timed, problems = plan_motion(graph, world, profile, DESCRIPTION, 1)
+    assert timed is None
+    assert [item.code for item in problems] == ["XEI0805"]
+    assert problems[0].label == "expected 0 mm .. 600 mm"
+
+
+def test_a_blocked_way_names_the_two_bodies() -> None:
+    _, world = bench()
+    # The bin hovers where the left arm hangs at first: the way to `ready` begins in it.
+    world = beside(world, "waste_bin", "wipe_1", -0.24, -0.28)
+    said = refusal(take("tube_1", "left"), world)
+    assert said.code == "XEI0803"
+    assert "`waste_bin`" in said.message
+    assert "`openarm_left_" in said.message
+
+
+def test_one_hand_keeps_its_tube_while_the_other_works() -> None:
+    profile, world = bench()
+    steps = plan(
+        ("pick", {"object": obj("tube_4"), "arm": "left"}),
+        ("pick", {"object": obj("bottle_1"), "arm": "right"}),
+        ("place", {"object": obj("bottle_1"), "on": spot("table", "bottle"), "arm": "right"}),
+        ("insert", {"object": obj("tube_4"), "into": slot("rack_2", "B3"), "arm": "left"}),
+    )
+    timed, problems = planned(steps, profile, world)
+    assert timed is not None, problems
+    assert findings(timed, steps, world) == []
+    assert any({item.object for item in goal.attached} == {"tube_4", "bottle_1"} for goal in timed.goals)

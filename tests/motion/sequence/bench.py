@@ -1,4 +1,6 @@
-"""Motion problems on the real bench for the tests: goals lowered from hand-made plans, worlds with things moved about."""
+"""Motion problems on the real bench for the tests: goals lowered from hand-made plans, worlds with things
+moved about.
+"""
 
 from __future__ import annotations
 
@@ -33,7 +35,9 @@ def goals(steps: SkillPlan, profile: Profile, world: World) -> MotionGoalGraph:
     return graph
 
 
-def planned(steps: SkillPlan, profile: Profile, world: World, seed: int = 1) -> tuple[TimedPlan | None, Diagnostics]:
+def planned(
+    steps: SkillPlan, profile: Profile, world: World, seed: int = 1
+) -> tuple[TimedPlan | None, Diagnostics]:
     """Lower and plan."""
     return plan_motion(goals(steps, profile, world), world, profile, DESCRIPTION, seed)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 from hypothesis import given
@@ -34,7 +35,9 @@ def test_a_turn_about_z_stays_in_its_orbit_and_a_lift_does_not(
 
 def test_offsets_are_taken_in_base_and_in_tool() -> None:
     down = Pose.from_rpy((0.0, 0.0, 0.05), (math.pi, 0.0, 0.0))
-    target = ToolTarget("f", Pose((0.4, 0.1, 0.7)), offset_base_m=(0.0, 0.0, 0.1), offset_tool_m=(0.0, 0.0, -0.08))
+    target = ToolTarget(
+        "f", Pose((0.4, 0.1, 0.7)), offset_base_m=(0.0, 0.0, 0.1), offset_tool_m=(0.0, 0.0, -0.08)
+    )
     assert np.allclose(tool_poses(target, family(down))[0][:3, 3], [0.4, 0.1, 0.7 + 0.05 + 0.1 + 0.08])
 
 
@@ -47,7 +50,7 @@ def test_lines_run_straight_from_end_to_end(roll: float, pitch: float, yaw: floa
     steps = np.diff(line[:, :3, 3], axis=0)
     assert np.linalg.norm(steps, axis=1).max() <= 0.01 + 1e-12
     assert np.allclose(steps, steps[0])
-    turns = [float(np.trace(a[:3, :3].T @ b[:3, :3])) for a, b in zip(line, line[1:], strict=False)]
+    turns = [float(np.trace(a[:3, :3].T @ b[:3, :3])) for a, b in pairwise(line)]
     assert np.ptp(turns) < 1e-6
 
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from xei_lang.motion.kinematics import Solver
 from xei_lang.motion.sequence.context import Context
 from xei_lang.motion.sequence.group import Unplaced
 from xei_lang.motion.sequence.layers import THOROUGH, feasible
@@ -49,12 +50,13 @@ def take_census(context: Context, failure: Unplaced) -> Census:
     rehearsal = failure.rehearsal
     chain, poses, heights = rehearsal.chain, chain_poses(rehearsal), tried_heights(context, rehearsal)
     members = np.arange(len(chain.family.members), dtype=np.intp)
-    rows = feasible(context.solvers[chain.arm], poses, members, heights, THOROUGH.configurations_per_pose)
+    solver = context.solvers[chain.arm]
+    rows = feasible(solver, poses, members, heights, THOROUGH.configurations_per_pose)
     reached = set(rows.member.tolist())
     far = [
         member
         for member in members.tolist()
-        if member not in reached and _out_of_reach(context, rehearsal, member)
+        if member not in reached and _out_of_reach(solver, poses[:, member], heights)
     ]
     touched: Counter[str] = Counter()
     for member in sorted(reached):
@@ -71,11 +73,10 @@ def take_census(context: Context, failure: Unplaced) -> Census:
     )
 
 
-def _out_of_reach(context: Context, rehearsal: Rehearsal, member: int) -> bool:
-    solver, poses = context.solvers[rehearsal.chain.arm], chain_poses(rehearsal)
+def _out_of_reach(solver: Solver, poses: Array, heights: Array) -> bool:
+    """Whether at every height (h,) one of the tool poses (targets, 4, 4) is too far or too near."""
     return all(
-        any(solver.reach_shortfall(pose, height) > 0.0 for pose in poses[:, member])
-        for height in tried_heights(context, rehearsal).tolist()
+        any(solver.reach_shortfall(pose, height) > 0.0 for pose in poses) for height in heights.tolist()
     )
 
 

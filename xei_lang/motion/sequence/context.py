@@ -18,6 +18,7 @@ from xei_lang.motion.collision import CollisionScene
 from xei_lang.motion.kinematics import Solver
 from xei_lang.motion.robot import Robot
 from xei_lang.motion.sequence.choose import Speeds
+from xei_lang.motion.sequence.shelf import SceneShelf
 from xei_lang.profiles.model import Profile
 
 Array = NDArray[np.float64]
@@ -36,7 +37,7 @@ class Context:
     world: World
     profile: Profile
     seed: int
-    scenes: dict[object, CollisionScene] = field(default_factory=dict[object, CollisionScene], repr=False)
+    scenes: SceneShelf = field(default_factory=SceneShelf, repr=False)
 
     def arm_joints(self, side: Side) -> tuple[str, ...]:
         """The slide and the joints of an arm, in this order everywhere in this package."""

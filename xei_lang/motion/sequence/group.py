@@ -25,12 +25,16 @@ from xei_lang.motion.sequence.poses import same_grasp
 from xei_lang.motion.sequence.rehearse import Rehearsal, rehearse_group
 from xei_lang.motion.sequence.sections import Chain, Group
 from xei_lang.motion.sequence.snapshot import UNCHOSEN, Snapshot
-from xei_lang.motion.sequence.space import Touch, motion_contact, target_check
-from xei_lang.motion.sequence.transit import plan_transit
+from xei_lang.motion.sequence.space import Touch, motion_contact, space_for, target_check
+from xei_lang.motion.sequence.transit import keeps_upright, plan_transit
 
 Array = NDArray[np.float64]
 
 MAX_BLOCKED_TRANSITS = 12
+MAX_GLANCES = 6
+DETOUR_FACTOR = 1.3
+DETOUR_S = 0.5
+"""What a way around something is taken to cost beside the straight way, where that is blocked."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,11 +71,13 @@ Failure = Unplaced | BlockedTransit
 class _Search:
     """The state of one search: what still holds, and what has been found out."""
 
+    own: int
     rehearsals: tuple[Rehearsal, ...]
     layers: tuple[Layer, ...]
     alive: list[Bools]
     struck: list[list[Touch]]
     sound: set[tuple[int, int]] = field(default_factory=set[tuple[int, int]])
+    glanced: dict[int, set[tuple[int, int]]] = field(default_factory=dict[int, set[tuple[int, int]]])
 
 
 def plan_group(context: Context, group: Group, start: Snapshot, ahead: Ahead) -> tuple[Motion, ...] | Failure:
@@ -107,28 +113,33 @@ def _attempt(
             return Unplaced(rehearsal, ())
         layers.append(layer)
     search = _Search(
-        rehearsals, tuple(layers), [np.ones(len(layer), dtype=bool) for layer in layers], [[] for _ in layers]
+        own,
+        rehearsals,
+        tuple(layers),
+        [np.ones(len(layer), dtype=bool) for layer in layers],
+        [[] for _ in layers],
     )
-    return _search(context, group, search, start, own, ahead)
+    return _search(context, group, search, start, ahead)
 
 
 def _search(
-    context: Context, group: Group, search: _Search, start: Snapshot, own: int, ahead: Ahead
+    context: Context, group: Group, search: _Search, start: Snapshot, ahead: Ahead
 ) -> tuple[Motion, ...] | Failure:
     now = start.q[context.arm_indices(group.arm)]
     speeds = context.speeds(context.arm_joints(group.arm))
-    transitions = _transitions(now, search, own, speeds)
-    homeward = np.zeros(len(search.layers[own - 1]))
+    transitions = _transitions(now, search, speeds)
+    last = search.layers[search.own - 1]
+    homeward = np.zeros(len(last))
     if ahead.configuration is not None:
         arm_speeds = context.speeds(context.robot.arm(group.arm).joint_names)
-        homeward = arm_speeds.travel_s(search.layers[own - 1].q[:, -1, 1:], ahead.configuration[None])[:, 0]
+        homeward = arm_speeds.travel_s(last.q[:, -1, 1:], ahead.configuration[None])[:, 0]
     failure: Failure | None = None
     blocked = 0
     while blocked <= MAX_BLOCKED_TRANSITS:
-        run = cheapest(_stages(now, search, own, homeward), transitions)
+        run = cheapest(_stages(now, search, homeward), transitions)
         if run is None:
             return failure or _unplaced(search)
-        if not _all_sound(context, search, run[1:]):
+        if not _all_sound(context, search, run[1:]) or _dearer(context, search, run, transitions, now):
             continue
         result = _realise(context, group, search, run[1:], start)
         if not isinstance(result, _BlockedAt):
@@ -140,22 +151,23 @@ def _search(
     return failure
 
 
-def _stages(now: Array, search: _Search, own: int, homeward: Array) -> tuple[Stage, ...]:
+def _stages(now: Array, search: _Search, homeward: Array) -> tuple[Stage, ...]:
     first = Stage(now[None], now[None], np.zeros(1), np.ones(1, dtype=bool))
     stages = [layer.stage(alive) for layer, alive in zip(search.layers, search.alive, strict=True)]
-    stages[own - 1] = replace(stages[own - 1], cost=stages[own - 1].cost + homeward)
+    last = stages[search.own - 1]
+    stages[search.own - 1] = replace(last, cost=last.cost + homeward)
     return (first, *stages)
 
 
-def _transitions(now: Array, search: _Search, own: int, speeds: Speeds) -> tuple[Array, ...]:
+def _transitions(now: Array, search: _Search, speeds: Speeds) -> tuple[Array, ...]:
     """Travel times between the group's stages; into a chain that is only looked ahead to, whether it may
     follow at all.
     """
-    stages = _stages(now, search, own, np.zeros(1))
+    stages = _stages(now, search, np.zeros(1))
     costs: list[Array] = []
     for index, mask in enumerate((None, *_joined(search))):
         before, after = stages[index], stages[index + 1]
-        if index < own:
+        if index < search.own:
             cost = speeds.travel_s(before.exit, after.entry)
         else:
             cost = np.zeros((len(before.cost), len(after.cost)))
@@ -203,6 +215,28 @@ def _all_sound(context: Context, search: _Search, chosen: tuple[int, ...]) -> bo
             search.alive[stage][index] = False
             good = False
     return good
+
+
+def _dearer(
+    context: Context, search: _Search, run: tuple[int, ...], transitions: tuple[Array, ...], now: Array
+) -> bool:
+    """Glance at the straight lines of a run that were not looked at before; where one is blocked, its cost
+    goes up.
+    """
+    found = False
+    for stage, (rehearsal, layer) in enumerate(zip(search.rehearsals, search.layers, strict=True)):
+        pair, seen = (run[stage], run[stage + 1]), search.glanced.setdefault(stage, set())
+        if stage >= search.own or pair in seen or len(seen) >= MAX_GLANCES or keeps_upright(rehearsal):
+            continue
+        seen.add(pair)
+        q_from = now if stage == 0 else search.layers[stage - 1].q[pair[0], -1]
+        before = as_held(rehearsal.chain, rehearsal.before, int(layer.member[pair[1]]))
+        joints = context.arm_joints(rehearsal.chain.arm)
+        space = space_for(context, before, joints, rehearsal.chain.head.allowed_contacts)
+        if not space.looks_clear(q_from, layer.q[pair[1], 0]):
+            transitions[stage][pair] = DETOUR_FACTOR * transitions[stage][pair] + DETOUR_S
+            found = True
+    return found
 
 
 def _first_touch(context: Context, rehearsal: Rehearsal, layer: Layer, index: int) -> Touch | None:

@@ -19,6 +19,8 @@ from xei_lang.motion.sequence.snapshot import UNCHOSEN, Snapshot
 
 Array = NDArray[np.float64]
 Pair = tuple[str, str]
+_GLANCE_RAD = 0.08
+
 Carried = tuple[Side, str, Pose]
 
 
@@ -50,10 +52,7 @@ def scene_of(
         sorted({pair for pair in allowed if all(_is_present(context, name, present) for name in pair)})
     )
     content = (snapshot.T_world_base, tuple(snapshot.standing.items()), carried, named)
-    known = context.scenes.get(content)
-    if known is None:
-        known = context.scenes[content] = _compose(context, snapshot, carried, named)
-    return known
+    return context.scenes.scene(content, lambda: _compose(context, snapshot, carried, named))
 
 
 def _is_present(context: Context, name: str, objects: set[str]) -> bool:
@@ -160,6 +159,10 @@ class SceneSpace:
     def edge_is_free(self, q_start: Array, q_end: Array) -> bool:
         """See `FreeSpace`."""
         return self.scene.edge_is_free(self._whole(q_start), self._whole(q_end))
+
+    def looks_clear(self, q_start: Array, q_end: Array) -> bool:
+        """Whether samples of the straight line touch nothing: a cheap guess at `edge_is_free`."""
+        return self.scene.edge_is_free_sampled(self._whole(q_start), self._whole(q_end), _GLANCE_RAD)
 
     def any_contact(self, q: Array) -> bool:
         """Whether any of the configurations (m, n) touches something."""

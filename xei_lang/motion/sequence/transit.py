@@ -11,6 +11,7 @@ from xei_lang.motion.sequence.context import Context
 from xei_lang.motion.sequence.enact import choice_name
 from xei_lang.motion.sequence.layers import Layer
 from xei_lang.motion.sequence.motions import Motion
+from xei_lang.motion.sequence.rehearse import Rehearsal
 from xei_lang.motion.sequence.sections import Chain
 from xei_lang.motion.sequence.snapshot import Snapshot
 from xei_lang.motion.sequence.space import space_for
@@ -20,6 +21,12 @@ Array = NDArray[np.float64]
 
 _TILT_SAMPLES = 24
 TILTED = ("held object", "its upright bound")
+
+
+def keeps_upright(rehearsal: Rehearsal) -> bool:
+    """Whether the free move of a chain begins with something in the hand that must stay upright."""
+    move = rehearsal.chain.head.action
+    return isinstance(move, MoveTo) and move.keep_upright and rehearsal.chain.arm in rehearsal.before.held
 
 
 def plan_transit(context: Context, layer: Layer, index: int, before: Snapshot) -> Motion | PathBlocked:
