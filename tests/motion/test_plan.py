@@ -220,3 +220,14 @@ def test_one_hand_keeps_its_tube_while_the_other_works() -> None:
     assert timed is not None, problems
     assert findings(timed, steps, world) == []
     assert any({item.object for item in goal.attached} == {"tube_4", "bottle_1"} for goal in timed.goals)
+
+
+def test_a_load_that_is_too_heavy_names_the_joint_and_its_torque() -> None:
+    profile, world = bench()
+    graph = goals(take("bottle_1"), profile, world)
+    heavy = tuple(replace(item, mass_kg=9.0) if item.name == "bottle_1" else item for item in world.objects)
+    timed, problems = plan_motion(graph, replace(world, objects=heavy), profile, DESCRIPTION, 1)
+    assert timed is None
+    assert [item.code for item in problems] == ["XEI0804"]
+    assert problems[0].message.startswith("`openarm_right_joint")
+    assert "only to hold still" in problems[0].label

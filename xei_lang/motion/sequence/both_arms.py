@@ -18,7 +18,8 @@ from xei_lang.motion.sequence.space import Pair, SceneSpace, space_for
 
 Array = NDArray[np.float64]
 
-_CHECKS_PER_ARM = 3000
+_CHECKS_PER_ARM = 2_000
+_CHECKS = 4_000
 
 
 def plan_joints(
@@ -47,7 +48,7 @@ def plan_joints(
             found = _one_by_one(space, q_start, q_goal, order, seed)
             if found is not None:
                 return found
-    return plan_free_path(space, q_start, q_goal, seed)
+    return plan_free_path(space, q_start, q_goal, seed, _CHECKS)
 
 
 def _one_by_one(

@@ -30,7 +30,7 @@ from xei_lang.motion.sequence.transit import keeps_upright, plan_transit
 
 Array = NDArray[np.float64]
 
-MAX_BLOCKED_TRANSITS = 12
+MAX_BLOCKED_TRANSITS = 6
 MAX_GLANCES = 6
 DETOUR_FACTOR = 1.3
 DETOUR_S = 0.5
@@ -76,6 +76,9 @@ class _Search:
     layers: tuple[Layer, ...]
     alive: list[Bools]
     struck: list[list[Touch]]
+    transits: dict[tuple[int, ...], Motion | PathBlocked] = field(
+        default_factory=dict[tuple[int, ...], Motion | PathBlocked]
+    )
     sound: set[tuple[int, int]] = field(default_factory=set[tuple[int, int]])
     glanced: dict[int, set[tuple[int, int]]] = field(default_factory=dict[int, set[tuple[int, int]]])
 
@@ -274,7 +277,9 @@ def _realise(
             now = motion.after
             continue
         layer, index = search.layers[stage], chosen[stage]
-        transit = plan_transit(context, layer, index, now)
+        prefix = chosen[: stage + 1]
+        transit = search.transits.get(prefix) or plan_transit(context, layer, index, now)
+        search.transits[prefix] = transit
         if isinstance(transit, PathBlocked):
             return _BlockedAt(stage, transit)
         rest = carry_out(context, layer, index, transit.after)

@@ -20,6 +20,7 @@ from xei_lang.motion.sequence.upright import plan_upright, tilt
 Array = NDArray[np.float64]
 
 _TILT_SAMPLES = 24
+_MAX_CHECKS = 2_000
 TILTED = ("held object", "its upright bound")
 
 
@@ -50,7 +51,7 @@ def _free(context: Context, chain: Chain, before: Snapshot, q_goal: Array) -> Fr
     if abs(q_goal[0] - before.q[indices[0]]) < 1e-9:
         joints, indices, q_goal = joints[1:], indices[1:], q_goal[1:]
     space = space_for(context, before, joints, chain.head.allowed_contacts)
-    return plan_free_path(space, before.q[indices], q_goal, context.goal_seed(chain.head.id))
+    return plan_free_path(space, before.q[indices], q_goal, context.goal_seed(chain.head.id), _MAX_CHECKS)
 
 
 def _upright(context: Context, chain: Chain, before: Snapshot, q_goal: Array) -> FreePath | PathBlocked:

@@ -32,6 +32,7 @@ _SPEED = np.array([0.4, 0.4, 0.4, 1.5, 0.1, 1.5])
 _ROOM_M = 0.35
 _JUMP_RAD = 0.4
 _ALIGNED = 1e-3
+_MAX_CHECKS = 500
 
 
 def tilt(context: Context, before: Snapshot, side: Side, joints: tuple[str, ...], q: Array) -> float:
@@ -123,7 +124,7 @@ def plan_upright(
     space = _space(
         context, solver, branch, T_start[:3, :3], start, goal, space_for(context, before, joints, allowed)
     )
-    found = plan_free_path(space, start, goal, seed, max_checks=4000)
+    found = plan_free_path(space, start, goal, seed, max_checks=_MAX_CHECKS)
     if isinstance(found, PathBlocked):
         return found
     path = _joint_path(space, found.path, joints, q_start, q_goal)
