@@ -1,6 +1,6 @@
 """The passes in order. Each takes what the ones before it made, and hands on one representation.
 
-A failure can always be named by its handoff: a pass either adds its value or stops the compilation with diagnostics.
+A failure can always be named by its handoff: a pass adds its value, or stops with diagnostics.
 """
 
 from __future__ import annotations
@@ -9,18 +9,18 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from xei_lang.diagnostics import Diagnostics, Source, has_errors
 
 if TYPE_CHECKING:
+    from xei_lang.ir.goals import MotionGoalGraph
     from xei_lang.ir.skill_plan import SkillPlan
+    from xei_lang.ir.timed import TimedPlan
     from xei_lang.ir.world import World
+    from xei_lang.motion.verify import Checked
     from xei_lang.profiles.model import Profile
     from xei_lang.syntax.ast import Module
-    from xei_lang.ir.goals import MotionGoalGraph
-    from xei_lang.ir.timed import TimedPlan
-    from xei_lang.motion.verify import Checked
 
 Progress = Callable[[str, int, int], None]
 """Called by long passes with the pass's name, how much is done and how much there is."""
@@ -57,22 +57,18 @@ class Handoffs:
     verified: Checked | None = None
 
 
-class Pass(Protocol):
-    """One step of the compilation. `name` is what `--print-after` takes; `adds` is the handoff that it fills in."""
+@dataclass(frozen=True, slots=True)
+class Pass:
+    """One step of the compilation.
 
-    @property
-    def name(self) -> str:
-        """The name of the pass."""
-        ...
+    `name` is what `--print-after` takes, `adds` the field of `Handoffs` that must be there once it has run.
+    `run` gives the handoffs with the pass's own added, and what it has to say; it imports its room when it
+    runs.
+    """
 
-    @property
-    def adds(self) -> str:
-        """The field of `Handoffs` that it fills in."""
-        ...
-
-    def __call__(self, request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
-        """The handoffs with this pass's own added, and what it has to say."""
-        ...
+    name: str
+    adds: str
+    run: Callable[[Request, Handoffs], tuple[Handoffs, Diagnostics]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,7 +100,7 @@ def compile_request(
     made, said = Handoffs(), ()
     for step in passes:
         started = time.perf_counter()
-        made_next, diagnostics = step(request, made)
+        made_next, diagnostics = step.run(request, made)
         failed = has_errors(diagnostics) or getattr(made_next, step.adds) is None
         said = (*said, *diagnostics)
         watch(PassResult(step.name, made_next, diagnostics, time.perf_counter() - started, failed))
@@ -114,157 +110,124 @@ def compile_request(
     return Outcome(made, said, None)
 
 
-@dataclass(frozen=True, slots=True)
-class Parse:
+def _parse(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
     """Text to `Module`."""
+    from xei_lang.syntax.parser import parse_module
 
-    name: str = "parse"
-    adds: str = "module"
-
-    def __call__(self, request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
-        from xei_lang.syntax.parser import parse_module
-
-        module, said = parse_module(request.source)
-        return replace(made, module=module), said
+    module, said = parse_module(request.source)
+    return replace(made, module=module), said
 
 
-@dataclass(frozen=True, slots=True)
-class LoadProfile:
+def _load_profile(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
     """The profile that the protocol names, from its compiled form where that is current."""
+    from xei_lang.check import profile_name
+    from xei_lang.profiles.open import open_profile
 
-    name: str = "profile"
-    adds: str = "profile"
-
-    def __call__(self, request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
-        from xei_lang.check import profile_name
-        from xei_lang.profiles.open import open_profile
-
-        assert made.module is not None
-        named = profile_name(made.module)
-        profile, said = open_profile(named, Path(request.source.file), request.profile_folder, request.cache)
-        return replace(made, profile=profile), said
+    assert made.module is not None
+    named = profile_name(made.module)
+    profile, said = open_profile(named, Path(request.source.file), request.profile_folder, request.cache)
+    return replace(made, profile=profile), said
 
 
-@dataclass(frozen=True, slots=True)
-class Check:
+def _check(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
     """`Module` to `SkillPlan`: names, types, roles, expansion."""
+    from xei_lang.check import CheckOptions, check_module
+    from xei_lang.profiles.sources import profile_sources
 
-    name: str = "check"
-    adds: str = "plan"
-
-    def __call__(self, request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
-        from xei_lang.check import CheckOptions, check_module
-
-        assert made.module is not None
-        assert made.profile is not None
-        options = CheckOptions(
-            bindings=dict(request.bindings),
-            params=dict(request.params),
-            open_bindings=request.open_bindings,
-            max_steps=request.max_steps,
-        )
-        plan, said = check_module(made.module, request.source, made.profile, options)
-        return replace(made, plan=plan), said
+    assert made.module is not None
+    assert made.profile is not None
+    options = CheckOptions(
+        bindings=dict(request.bindings),
+        params=dict(request.params),
+        open_bindings=request.open_bindings,
+        max_steps=request.max_steps,
+        sources=profile_sources(made.profile),
+    )
+    plan, said = check_module(made.module, request.source, made.profile, options)
+    return replace(made, plan=plan), said
 
 
-@dataclass(frozen=True, slots=True)
-class Admit:
-    """What a compilation refuses that a check only reports: gaps in the plan, and in strict mode placeholders."""
+def _admit(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
+    """What a compilation refuses and a check reports: gaps in the plan and, if strict, placeholders."""
+    from xei_lang.check.admission import admit
 
-    name: str = "admit"
-    adds: str = "plan"
-
-    def __call__(self, request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
-        from xei_lang.check.admission import admit
-
-        assert made.plan is not None
-        assert made.profile is not None
-        return made, admit(made.plan, made.profile, request.allow_unmapped, request.strict)
+    assert made.plan is not None
+    assert made.profile is not None
+    return made, admit(made.plan, made.profile, request.allow_unmapped, request.strict)
 
 
-@dataclass(frozen=True, slots=True)
-class Ground:
+def _ground(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
     """Profile to `World`: where everything is, and who said so."""
+    from xei_lang.world.ground import ground
 
-    name: str = "ground"
-    adds: str = "world"
-
-    def __call__(self, request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
-        from xei_lang.world.ground import ground
-
-        assert made.profile is not None
-        world, said = ground(made.profile)
-        return replace(made, world=world), said
+    assert made.profile is not None
+    world, said = ground(made.profile)
+    return replace(made, world=world), said
 
 
-@dataclass(frozen=True, slots=True)
-class Lower:
+def _lower_goals(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
     """`SkillPlan` and `World` to `MotionGoalGraph`, by the skills' templates."""
+    from xei_lang.lower import lower
 
-    name: str = "lower"
-    adds: str = "graph"
-
-    def __call__(self, request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
-        from xei_lang.lower import lower
-
-        assert made.plan is not None
-        assert made.profile is not None
-        assert made.world is not None
-        graph, said = lower(made.plan, made.profile, made.world)
-        return replace(made, graph=graph), said
+    assert made.plan is not None
+    assert made.profile is not None
+    assert made.world is not None
+    graph, said = lower(made.plan, made.profile, made.world)
+    return replace(made, graph=graph), said
 
 
-@dataclass(frozen=True, slots=True)
-class PlanMotion:
+def _plan(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
     """`MotionGoalGraph` to `TimedPlan`."""
+    from xei_lang.motion.plan import RobotDescription, plan_motion
+    from xei_lang.profiles.open import robot_texts
 
-    name: str = "motion"
-    adds: str = "timed"
-
-    def __call__(self, request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
-        from xei_lang.motion.plan import RobotDescription, plan_motion
-        from xei_lang.profiles.open import robot_texts
-
-        assert made.profile is not None
-        assert made.graph is not None
-        assert made.world is not None
-        report = request.progress
-        timed, said = plan_motion(
-            made.graph,
-            made.world,
-            made.profile,
-            RobotDescription(*robot_texts(made.profile)),
-            request.seed,
-            None if report is None else lambda done, total: report("motion", done, total),
-        )
-        return replace(made, timed=timed), said
+    assert made.profile is not None
+    assert made.graph is not None
+    assert made.world is not None
+    report = request.progress
+    timed, said = plan_motion(
+        made.graph,
+        made.world,
+        made.profile,
+        RobotDescription(*robot_texts(made.profile)),
+        request.seed,
+        None if report is None else lambda done, total: report("motion", done, total),
+    )
+    return replace(made, timed=timed), said
 
 
-@dataclass(frozen=True, slots=True)
-class Verify:
+def _verify(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
     """`TimedPlan` against everything that it must keep, by code that shares nothing with the planner."""
+    from xei_lang.motion.verify import RobotDescription, VerifyOptions, to_diagnostics, verify_timed
+    from xei_lang.profiles.open import robot_texts
 
-    name: str = "verify"
-    adds: str = "verified"
-
-    def __call__(self, request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
-        from xei_lang.motion.verify import RobotDescription, to_diagnostics, verify_timed
-        from xei_lang.profiles.open import robot_texts
-
-        assert made.profile is not None
-        assert made.timed is not None
-        assert made.graph is not None
-        assert made.world is not None
-        robot = RobotDescription(*robot_texts(made.profile))
-        limits = made.profile.calibration.limits
-        report = verify_timed(made.timed, made.graph, made.world, robot, limits)
-        margins = (*made.timed.margins, *report.margins)
-        said = to_diagnostics(report, made.graph)
-        return replace(made, timed=replace(made.timed, margins=margins), verified=report.checked), said
+    assert made.profile is not None
+    assert made.timed is not None
+    assert made.graph is not None
+    assert made.world is not None
+    robot = RobotDescription(*robot_texts(made.profile))
+    calibration = made.profile.calibration
+    options = VerifyOptions(upright_tilt_rad=calibration.spill_tilt_rad)
+    report = verify_timed(made.timed, made.graph, made.world, robot, calibration.limits, options=options)
+    found = {margin.name: margin for margin in (*made.timed.margins, *report.margins)}
+    margins = tuple(found[name] for name in sorted(found))
+    said = to_diagnostics(report, made.graph)
+    return replace(made, timed=replace(made.timed, margins=margins), verified=report.checked), said
 
 
-FRONT: tuple[Pass, ...] = (Parse(), LoadProfile(), Check())
+FRONT: tuple[Pass, ...] = (
+    Pass("parse", "module", _parse),
+    Pass("profile", "profile", _load_profile),
+    Pass("check", "plan", _check),
+)
 """What `xei check` runs."""
 
-ALL: tuple[Pass, ...] = (*FRONT, Admit(), Ground(), Lower(), PlanMotion(), Verify())
+ALL: tuple[Pass, ...] = (
+    *FRONT,
+    Pass("admit", "plan", _admit),
+    Pass("ground", "world", _ground),
+    Pass("lower", "graph", _lower_goals),
+    Pass("motion", "timed", _plan),
+    Pass("verify", "verified", _verify),
+)
 """The whole way to timed, verified motion."""

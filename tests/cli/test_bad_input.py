@@ -1,4 +1,4 @@
-"""Whatever a tired person does: a diagnostic with a place, a reason and a way out, the right exit code, no traceback."""
+"""Whatever a tired person does: a place, a reason, a way out, the right exit code, and no traceback."""
 
 from __future__ import annotations
 
@@ -38,18 +38,30 @@ CHECKED = [
     ("a wrong role", protocol("pick(object=rack_1)"), "XEI03", ["`rack_1`", "movable"]),
     ("a wrong unit", protocol("slide_to(height=30 s)"), "XEI03", ["`height`", "Length", "30 s"]),
     ("a missing argument", protocol("pick()"), "XEI03", ["`object`", "`pick`"]),
-    ("a slot that does not exist", protocol('insert(object=tube_1, into=rack_2.slot("D9"))'), "XEI0", ["D9", "rack_2"]),
+    (
+        "a slot that does not exist",
+        protocol('insert(object=tube_1, into=rack_2.slot("D9"))'),
+        "XEI0",
+        ["D9", "rack_2"],
+    ),
     ("an empty file", "", "XEI0103", ["protocol"]),
     ("a cut file", GOOD[: GOOD.index("}")], "XEI0104", ["{"]),
     ("bytes that are no text", b"xei 1\n\xff\xfe\x00", "XEI0102", ["UTF-8"]),
     ("nothing but a comment", "# later\n", "XEI0103", ["protocol"]),
     ("a huge loop", protocol("repeat 1000000000 times { wait 1 s }"), "XEI0", ["1000000000"]),
-    ("a profile that does not exist", GOOD.replace("openarm_bench", "openarm_bentch"), "XEI0601", ["openarm_bench"]),
+    (
+        "a profile that does not exist",
+        GOOD.replace("openarm_bench", "openarm_bentch"),
+        "XEI0601",
+        ["openarm_bench"],
+    ),
 ]
 
 
 @pytest.mark.parametrize(("_name", "text", "code", "words"), CHECKED, ids=[case[0] for case in CHECKED])
-def test_check_says_what_is_wrong(lab: Path, _name: str, text: str | bytes, code: str, words: list[str]) -> None:
+def test_check_says_what_is_wrong(
+    lab: Path, _name: str, text: str | bytes, code: str, words: list[str]
+) -> None:
     ran = xei("check", written(lab, text).name, cwd=lab)
     assert ran.code == 1, ran.err
     assert f"[{code}" in ran.err
@@ -84,7 +96,10 @@ def test_a_broken_profile_is_shown_at_its_line(tmp_path: Path) -> None:
     usage = tmp_path / "profiles" / "openarm_bench" / "usage_profile.yaml"
     usage.write_text(usage.read_text().replace("mass: 6.5 g", "mass: 6.5 mL", 1))
     ran = xei("check", written(tmp_path, GOOD).name, cwd=tmp_path)
-    line = usage.read_text().splitlines().index(next(x for x in usage.read_text().splitlines() if "6.5 mL" in x)) + 1
+    line = (
+        usage.read_text().splitlines().index(next(x for x in usage.read_text().splitlines() if "6.5 mL" in x))
+        + 1
+    )
     assert ran.code == 1
     assert f"profiles/openarm_bench/usage_profile.yaml:{line}:" in ran.err
 

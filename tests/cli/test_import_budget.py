@@ -9,7 +9,20 @@ from pathlib import Path
 
 from tests.cli.xei import ROOT, xei
 
-HEAVY = ("toppra", "pinocchio", "coal", "casadi", "networkx", "rosbags", "numpy", "scipy", "ompl", "pydantic", "yaml", "jsonschema")
+HEAVY = (
+    "toppra",
+    "pinocchio",
+    "coal",
+    "casadi",
+    "networkx",
+    "rosbags",
+    "numpy",
+    "scipy",
+    "ompl",
+    "pydantic",
+    "yaml",
+    "jsonschema",
+)
 
 PROBE = """
 import sys

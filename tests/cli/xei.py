@@ -25,8 +25,8 @@ def start(*args: str, cwd: Path, env: dict[str, str] | None = None) -> subproces
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1", **(env or {})}
     environment.setdefault("XDG_CACHE_HOME", str(cwd / ".cache"))
     return subprocess.Popen(
-        program, cwd=cwd, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-        text=True,
+        program, cwd=cwd, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE, text=True,
     )  # fmt: skip
 
 

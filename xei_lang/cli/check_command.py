@@ -3,33 +3,32 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import click
 
 from xei_lang.cli.exit_codes import WRONG_USAGE
-from xei_lang.cli.options import cache_folder, compiling, pairs, wants_color
+from xei_lang.cli.options import Options, compiling
 from xei_lang.cli.report import exit_code, show, with_quoted
+from xei_lang.cli.session import request_for
 from xei_lang.diagnostics import Diagnostics, Source
-from xei_lang.pipeline import FRONT, Request, compile_request
+from xei_lang.pipeline import FRONT, compile_request
 from xei_lang.syntax.reading import read_source
 
 
 @click.command("check")
 @click.argument("paths", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="PATH...")
-@click.option("--format", "form", type=click.Choice(["full", "json"]), default="full", show_default=True,
-              help="How to print what was found.")  # fmt: skip
+@click.option(
+    "--format",
+    "form",
+    type=click.Choice(["full", "json"]),
+    default="full",
+    show_default=True,
+    help="How to print what was found.",
+)
 @compiling
-def command(
-    paths: tuple[Path, ...],
-    form: str,
-    profile: Path | None,
-    bindings: tuple[str, ...],
-    params: tuple[str, ...],
-    seed: int,
-    color: str,
-    quiet: bool,
-) -> None:
+def command(*, paths: tuple[Path, ...], form: str, options: Options) -> None:  # fmt: skip
     """Check protocols: names, skills, arguments, units, roles, objects.
 
     A folder stands for all .xei files below it.
@@ -37,7 +36,6 @@ def command(
     Example: xei check protocols/
     """
     files = _files(paths)
-    bound, given = pairs("--bind", bindings), pairs("--param", params)
     said: Diagnostics = ()
     sources: dict[str, Source] = {}
     for file in files:
@@ -45,9 +43,18 @@ def command(
         said = (*said, *problems)
         if source is not None:
             sources[source.file] = source
-            request = Request(source, profile, cache_folder(), bound, given, open_bindings=True, seed=seed)
+            request = replace(request_for(source, options, allow_unmapped=True), open_bindings=True)
             said = (*said, *compile_request(request, FRONT).diagnostics)
-    _print(said, sources, form, len(files), wants_color(color), quiet)
+    if form == "json":
+        _print_json(said, sources, len(files))
+    else:
+        show(
+            tuple(item for item in said if not options.quiet or item.severity == "error"),
+            sources,
+            options.color,
+        )
+        if not options.quiet:
+            click.echo(_summary(said, len(files)), err=True)
     sys.exit(exit_code(said))
 
 
@@ -62,24 +69,16 @@ def _files(paths: tuple[Path, ...]) -> list[Path]:
     return list(dict.fromkeys(found))
 
 
-def _print(
-    said: Diagnostics, sources: dict[str, Source], form: str, files: int, color: bool, quiet: bool
-) -> None:
-    if form == "json":
-        from xei_lang.diagnostics.render.json import render_json
+def _print_json(said: Diagnostics, sources: dict[str, Source], files: int) -> None:
+    from xei_lang.diagnostics.render.json import render_json
 
-        click.echo(render_json(said, with_quoted(said, sources), files), nl=False)
-        return
+    click.echo(render_json(said, with_quoted(said, sources), files), nl=False)
+
+
+def _summary(said: Diagnostics, files: int) -> str:
     errors = sum(diagnostic.severity == "error" for diagnostic in said)
     warnings = sum(diagnostic.severity == "warning" for diagnostic in said)
-    show(tuple(item for item in said if not quiet or item.severity == "error"), sources, color)
-    if not quiet:
-        click.echo(_summary(files, errors, warnings), err=True)
-
-
-def _summary(files: int, errors: int, warnings: int) -> str:
-    counted = [_count(errors, "error"), _count(warnings, "warning")]
-    return f"{_count(files, 'file')} checked: {', '.join(counted)}"
+    return f"{_count(files, 'file')} checked: {_count(errors, 'error')}, {_count(warnings, 'warning')}"
 
 
 def _count(number: int, noun: str) -> str:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 from pathlib import Path
 
+import click
+
 from xei_lang.cli.handoff_lines import line
-from xei_lang.diagnostics import Diagnostics
+from xei_lang.diagnostics import Diagnostics, Source
 from xei_lang.pipeline import ALL, FRONT, Handoffs, Pass, PassResult, Request
 
 EMITTED = ("plan", "goals", "dot", "timed", "bag")
@@ -41,13 +42,13 @@ def text_of(stage: str, request: Request, made: Handoffs) -> str:
     return dumps(timed_json.to_json(made.timed))
 
 
-def text_after(result: PassResult) -> str:
+def text_after(result: PassResult, source: Source) -> str:
     """What a pass made, for people."""
     made = result.made
     if result.pass_name == "parse" and made.module is not None:
         from xei_lang.syntax import dump
 
-        return dump.to_text(made.module)
+        return dump.to_text(made.module, source)
     if result.pass_name in ("check", "admit") and made.plan is not None:
         from xei_lang.ir.forms import plan_text
 
@@ -67,24 +68,20 @@ def text_after(result: PassResult) -> str:
     return f"profile {made.profile.name}\n" if made.profile is not None else ""
 
 
-def write_all(
-    stage: str | None, target: Path, request: Request, made: Handoffs, say: Callable[[str], None] | None
-) -> Diagnostics:
-    """Write the bundle, or with `stage` only its recording, into a folder, and say so in one line."""
+def write_all(stage: str | None, target: Path, request: Request, made: Handoffs, quiet: bool) -> Diagnostics:
+    """Write the bundle, or for `bag` only its recording, into a folder, and say so in one line."""
+    from xei_lang.cli.deliver import Compiled
     from xei_lang.export.bundle import write_bundle
-    from xei_lang.export.compiled import bundle_contents, manifest_of
-    from xei_lang.profiles.open import robot_texts
 
     started = time.perf_counter()
-    assert made.profile and made.plan and made.world and made.graph and made.timed
-    urdf, _ = robot_texts(made.profile)
-    contents = bundle_contents(request.source, made.plan, made.world, made.graph, made.timed, urdf)
+    compiled = Compiled.of(request.source, made)
+    contents = compiled.bundle_contents()
     if stage == "bag":
         contents = {name: content for name, content in contents.items() if name == "rosbag"}
-    manifest = manifest_of(request.source, made.profile, made.plan.protocol, request.seed)
-    problems = write_bundle(target, contents, manifest)
-    if say is not None and not problems:
+    problems = write_bundle(target, contents, compiled.manifest(request.seed))
+    if not quiet and not problems:
         files = [path for path in target.rglob("*") if path.is_file()]
         size = sum(path.stat().st_size for path in files) / 1e6
-        say(line("bundle", "", f"{target}: {len(files)} files, {size:.1f} MB", time.perf_counter() - started))
+        content = f"{target}: {len(files)} files, {size:.1f} MB"
+        click.echo(line("bundle", "", content, time.perf_counter() - started), err=True)
     return problems

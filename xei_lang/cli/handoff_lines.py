@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from xei_lang.pipeline import Handoffs, PassResult
 
+
 def handoff_line(result: PassResult) -> str:
     """`check    SkillPlan        2 steps, 0 unmapped requests          3 ms`."""
     name, content = _SEEN[result.pass_name](result.made)
@@ -24,7 +25,8 @@ def _parsed(made: Handoffs) -> tuple[str, str]:
 def _profile(made: Handoffs) -> tuple[str, str]:
     profile = made.profile
     assert profile is not None
-    return "Profile", f"{profile.name}: {_count(len(profile.bank.skills), 'skill')}, {_count(len(profile.objects), 'object')}"
+    skills, objects = _count(len(profile.bank.skills), "skill"), _count(len(profile.objects), "object")
+    return "Profile", f"{profile.name}: {skills}, {objects}"
 
 
 def _plan(made: Handoffs) -> tuple[str, str]:
@@ -39,21 +41,24 @@ def _plan(made: Handoffs) -> tuple[str, str]:
 def _world(made: Handoffs) -> tuple[str, str]:
     world = made.world
     assert world is not None
-    return "World", f"{_count(len(world.objects), 'object')} in {_count(len(world.frames), 'frame')}, at {world.robot.station}"
+    objects, frames = _count(len(world.objects), "object"), _count(len(world.frames), "frame")
+    return "World", f"{objects} in {frames}, at {world.robot.station}"
 
 
 def _graph(made: Handoffs) -> tuple[str, str]:
     graph = made.graph
     assert graph is not None
     grasps = sum(len(family.members) for family in graph.families)
-    return "MotionGoalGraph", f"{_count(len(graph.goals), 'goal')}, {grasps} grasps to choose from, {_count(len(graph.epochs), 'epoch')}"
+    goals, epochs = _count(len(graph.goals), "goal"), _count(len(graph.epochs), "epoch")
+    return "MotionGoalGraph", f"{goals}, {_count(grasps, 'grasp')} to choose from, {epochs}"
 
 
 def _timed(made: Handoffs) -> tuple[str, str]:
     timed = made.timed
     assert timed is not None
     moving = sum(goal.knots is not None for goal in timed.goals)
-    return "TimedPlan", f"{timed.duration_s:.1f} s of motion in {_count(moving, 'trajectory', 'trajectories')}"
+    trajectories = f"{moving} trajectory" if moving == 1 else f"{moving} trajectories"
+    return "TimedPlan", f"{timed.duration_s:.1f} s of motion in {trajectories}"
 
 
 def _verified(made: Handoffs) -> tuple[str, str]:
@@ -63,11 +68,13 @@ def _verified(made: Handoffs) -> tuple[str, str]:
     clearance = nearest.get("clearance")
     assert made.verified is not None
     said = f"{made.verified.configurations} configurations, no finding"
-    return "verified", said if clearance is None else f"{said}, nearest {clearance.value * 1000:.1f} mm ({clearance.where})"
+    if clearance is None:
+        return "verified", said
+    return "verified", f"{said}, nearest {clearance.value * 1000:.1f} mm ({clearance.where})"
 
 
-def _count(number: int, noun: str, plural: str | None = None) -> str:
-    return f"{number} {noun}" if number == 1 else f"{number} {plural or noun + 's'}"
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 _SEEN = {

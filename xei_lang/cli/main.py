@@ -70,7 +70,7 @@ def _report_bug(bug: Exception) -> None:
     import traceback
 
     click.echo("internal error: this is a bug in xei, not in your protocol", err=True)
-    click.echo("  please report it with the lines below and, if you may, the protocol that caused it", err=True)
+    click.echo("  please report it with these lines and, if you may, the protocol that caused it", err=True)
     frames: list[Any] = traceback.extract_tb(bug.__traceback__)[-6:]
     for frame in frames:
         click.echo(f"  {frame.name} ({frame.filename.rpartition('xei_lang/')[2]}:{frame.lineno})", err=True)

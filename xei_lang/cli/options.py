@@ -2,36 +2,76 @@
 
 from __future__ import annotations
 
+import functools
 import os
+import sys
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import click
 
-Command = TypeVar("Command", bound=Callable[..., Any])
+Pairs = tuple[tuple[str, str], ...]
 
 
-def compiling(command: Command) -> Command:
-    """The options of every command that compiles a protocol."""
-    options = [
-        click.option("--profile", type=click.Path(path_type=Path), help="Folder of the profile to use."),
-        click.option("--bind", "bindings", multiple=True, metavar="NAME=OBJECT",
-                     help="Bind an object of the protocol to a registered one."),
-        click.option("--param", "params", multiple=True, metavar="NAME=VALUE",
-                     help='Give a parameter its value, such as --param volume="2 mL".'),
-        click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True,
-                     help="Seed of everything that is random."),
-        click.option("--color", type=click.Choice(["auto", "always", "never"]), default="auto",
-                     show_default=True, help="Colour messages."),
-        click.option("--quiet", is_flag=True, help="Print errors only."),
-    ]  # fmt: skip
-    for option in reversed(options):
-        command = option(command)
-    return command
+@dataclass(frozen=True, slots=True)
+class Options:
+    """What every command that compiles a protocol can be told."""
+
+    profile: Path | None
+    bindings: Pairs
+    params: Pairs
+    seed: int
+    color: bool
+    quiet: bool
 
 
-def pairs(option: str, values: tuple[str, ...]) -> tuple[tuple[str, str], ...]:
+def compiling(command: Callable[..., None]) -> Callable[..., None]:
+    """Give a command the shared options; it receives them as one argument, `options`."""
+
+    @functools.wraps(command)
+    def with_options(
+        profile: Path | None,
+        bindings: tuple[str, ...],
+        params: tuple[str, ...],
+        seed: int,
+        color: str,
+        quiet: bool,
+        **others: Any,
+    ) -> None:
+        bound, given = _pairs("--bind", bindings), _pairs("--param", params)
+        command(options=Options(profile, bound, given, seed, _wants_color(color), quiet), **others)
+
+    wrapped: Callable[..., None] = with_options
+    for option in _SHARED:
+        wrapped = option(wrapped)
+    return wrapped
+
+
+_SHARED = (
+    click.option("--quiet", is_flag=True, help="Print errors only."),
+    click.option(
+        "--color", type=click.Choice(["auto", "always", "never"]), default="auto", help="Colour messages.",
+        show_default=True,
+    ),
+    click.option(
+        "--seed", type=click.IntRange(min=0), default=0, show_default=True,
+        help="Seed of everything that is random.",
+    ),
+    click.option(
+        "--param", "params", multiple=True, metavar="NAME=VALUE",
+        help='Give a parameter its value, such as --param volume="2 mL".',
+    ),
+    click.option(
+        "--bind", "bindings", multiple=True, metavar="NAME=OBJECT",
+        help="Bind an object of the protocol to a registered one.",
+    ),
+    click.option("--profile", type=click.Path(path_type=Path), help="Folder of the profile to use."),
+)  # fmt: skip
+
+
+def _pairs(option: str, values: tuple[str, ...]) -> Pairs:
     """`NAME=VALUE` texts as pairs; a text without `=`, or a name given twice, is wrong usage."""
     found: dict[str, str] = {}
     for text in values:
@@ -44,14 +84,8 @@ def pairs(option: str, values: tuple[str, ...]) -> tuple[tuple[str, str], ...]:
     return tuple(found.items())
 
 
-def wants_color(choice: str) -> bool:
+def _wants_color(choice: str) -> bool:
     """Whether to colour what goes to stderr (https://no-color.org)."""
     if choice != "auto":
         return choice == "always"
-    return "NO_COLOR" not in os.environ and click.get_text_stream("stderr").isatty()
-
-
-def cache_folder() -> Path:
-    """Where compiled profiles and parse tables are kept (XDG Base Directory Specification)."""
-    base = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
-    return Path(base) / "xei"
+    return "NO_COLOR" not in os.environ and sys.stderr.isatty()

@@ -11,12 +11,13 @@ _WIDTH = 30
 
 @dataclass(slots=True)
 class Bar:
-    """Called with a pass's name, how much is done and how much there is; draws over its own line on stderr."""
+    """Called with a pass's name, how much is done and how much there is; draws over its own line."""
 
     started: float = field(default_factory=time.monotonic)
     drawn: bool = False
 
     def __call__(self, name: str, done: int, total: int) -> None:
+        """Draw the bar anew."""
         if not sys.stderr.isatty() or time.monotonic() - self.started < 1.0:
             return
         filled = _WIDTH * done // max(total, 1)

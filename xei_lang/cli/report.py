@@ -15,9 +15,9 @@ UNUSABLE_FILES = frozenset({"XEI0101"})
 
 def show(diagnostics: Diagnostics, sources: Sources, color: bool) -> None:
     """Write diagnostics to stderr in full, with the source lines they speak of."""
-    from xei_lang.diagnostics.render.full import render_full
-
     if diagnostics:
+        from xei_lang.diagnostics.render.full import render_full
+
         click.echo(render_full(diagnostics, with_quoted(diagnostics, sources), color), err=True, nl=False)
 
 

@@ -11,7 +11,8 @@ from xei_lang.diagnostics import Diagnostic, Diagnostics
 def write_text(path: Path, text: str) -> Diagnostics:
     """Write beside the target, then rename; a refusal of the system comes back as a diagnostic."""
     if path.is_dir():
-        return (Diagnostic("XEI0101", f"`{path}` is a folder, and a file was to be written", help=("name a file",)),)
+        message = f"`{path}` is a folder, and a file was to be written"
+        return (Diagnostic("XEI0101", message, help=("name a file with -o",)),)
     aside = path.with_name(f".{path.name}.{os.getpid()}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -22,7 +23,8 @@ def write_text(path: Path, text: str) -> Diagnostics:
         aside.replace(path)
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
-        return (Diagnostic("XEI0101", f"`{path}` cannot be written: {reason}", help=("choose another place with -o",)),)
+        help = ("choose another place with -o",)
+        return (Diagnostic("XEI0101", f"`{path}` cannot be written: {reason}", help=help),)
     finally:
         aside.unlink(missing_ok=True)
     return ()

@@ -1,4 +1,4 @@
-"""Diagnostics as data: what is said, where, and how to mend it. Rendering happens at the edge, in `render/`."""
+"""Diagnostics as data: what is said, where, and how to mend it. `render/` shows them, at the edge."""
 
 from __future__ import annotations
 

@@ -27,7 +27,10 @@ class Span:
 
 @dataclass(frozen=True, slots=True)
 class Position:
-    """A place as people count it: line and column from 1, the column in characters; `byte` is a UTF-8 offset."""
+    """A place as people count it: line and column from 1, the column in characters.
+
+    `byte` is a UTF-8 offset.
+    """
 
     line: int
     column: int

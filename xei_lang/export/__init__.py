@@ -1,1 +1,1 @@
-"""What a compilation leaves on disk: the bundle, its rosbag, its scene."""
+"""What leaves the compiler: bundles, recordings, scenes, graphs."""

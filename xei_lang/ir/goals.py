@@ -1,8 +1,9 @@
 """MotionGoalGraph: what the robot must do, goal by goal, before any motion is planned.
 
-The kinds are closed. Poses are in the base frame of the goal's epoch (every drive starts a new one), so that a goal
-never depends on where the base stood before. A goal that aims with the tool names a *family* of tool poses: the
-planner chooses one member, and every later goal of the same family keeps that choice until the hand changes.
+The kinds are closed. Poses are in the base frame of the goal's epoch (every drive starts a new one), so that
+a goal never depends on where the base stood before. A goal that aims with the tool names a *family* of tool
+poses: the planner chooses one member, and every later goal of the same family keeps that choice until the
+hand changes.
 """
 
 from __future__ import annotations
@@ -41,8 +42,8 @@ class ToolPose:
 class Family:
     """Alternative tool poses about one reference, usually the grasps of one object.
 
-    `symmetric` says that the reference may be turned about its z axis without any difference (a round tube in a
-    round slot), which a planner may use where it sets the object down.
+    `symmetric` says that the reference may be turned about its z axis without any difference (a round tube
+    in a round slot), which a planner may use where it sets the object down.
     """
 
     id: str
@@ -53,10 +54,12 @@ class Family:
 
 @dataclass(frozen=True, slots=True)
 class ToolTarget:
-    """The tool stands at `translate(offset_base_m) @ T_base_reference @ T_reference_tool @ translate(offset_tool_m)`.
+    """A pose of the tool, up to the choice of a member of the family:
 
-    `offset_base_m` lifts or lowers in the base frame, `offset_tool_m` backs off along the approach (negative z).
-    With `turn_reference`, and a symmetric family, the reference may also be turned about its own z axis.
+    `translate(offset_base_m) @ T_base_reference @ T_reference_tool @ translate(offset_tool_m)`.
+
+    `offset_base_m` lifts or lowers in the base frame, `offset_tool_m` backs off along the approach (negative
+    z). With `turn_reference`, and a symmetric family, the reference may also be turned about its own z axis.
     """
 
     family: str
@@ -70,7 +73,7 @@ class ToolTarget:
 
 @dataclass(frozen=True, slots=True)
 class JointTarget:
-    """A named configuration of the robot description (`home`, `ready`, `transport`) with its joints (rad, m)."""
+    """A named configuration of the robot description (`home`, `ready`, `transport`): joints in rad and m."""
 
     name: str
     joints: tuple[tuple[str, float], ...]
@@ -92,7 +95,10 @@ class MoveTo:
 
 @dataclass(frozen=True, slots=True)
 class Grip:
-    """`open_gripper` or `close_gripper`: bring the gap between the jaws to `opening_m` (0 .. 0.088 m on OpenArm v1)."""
+    """`open_gripper` or `close_gripper`: bring the gap between the jaws to `opening_m`.
+
+    OpenArm v1 opens from 0 to 0.088 m.
+    """
 
     arm: Side
     opening_m: float
@@ -195,7 +201,8 @@ class Parameter:
 class MotionGoal:
     """One goal. `id` is unique in the graph; `resources` name what it occupies (`left_arm`, `slide`, `base`).
 
-    `allowed_contacts` are pairs of body names that may touch while it runs (held object and fingers, object and slot).
+    `allowed_contacts` are pairs of body names that may touch while it runs (held object and fingers, object
+    and slot).
     """
 
     id: str
@@ -214,7 +221,10 @@ class MotionGoal:
 
 @dataclass(frozen=True, slots=True)
 class Epoch:
-    """A stand of the base: everything between two drives. `T_world_base` is nominal, good to the docking tolerance."""
+    """A stand of the base: everything between two drives.
+
+    `T_world_base` is nominal, good to the docking tolerance.
+    """
 
     index: int
     station: str
@@ -246,4 +256,3 @@ class MotionGoalGraph:
             graph.add_node(goal.id, goal=goal)
         graph.add_edges_from(self.edges)
         return graph
-

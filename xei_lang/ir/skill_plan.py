@@ -1,8 +1,8 @@
-"""SkillPlan: which registered skills a protocol asks for, in which partial order, with every argument resolved.
+"""SkillPlan: which registered skills a protocol asks for, in which order, with every argument resolved.
 
-The plan is a partial order: `after` names the steps that must have ended before one starts. A plain sequence is a
-chain. Branches of a choice, turns of a loop and calls of procedures leave their marks (`branch`, `turn`, `origin`)
-so that a step can always be shown at the place where somebody wrote it.
+The plan is a partial order: `after` names the steps that must have ended before one starts. A plain sequence
+is a chain. Branches of a choice, turns of a loop and calls of procedures leave their marks (`branch`, `turn`,
+`origin`) so that a step can always be shown at the place where somebody wrote it.
 """
 
 from __future__ import annotations
@@ -31,7 +31,8 @@ class ObjectRef:
 class PlaceRef:
     """A place on or in an object: a slot of a rack (`kind="slot"`, `key="A1"`) or a named spot of a surface.
 
-    Written `rack_1.slot("A1")` or `table.spot("bottle")`; a whole surface has `kind="surface"` and an empty key.
+    Written `rack_1.slot("A1")` or `table.spot("bottle")`; a whole surface has `kind="surface"` and an empty
+    key.
     """
 
     object: str
@@ -82,9 +83,9 @@ class Fact:
 class Step:
     """One step of the plan.
 
-    `step_id` is the step's path (`rack[2].insert#1`); `resources` are what it occupies (`left_arm`, `slide`, `base`).
-    `when` holds, in source words, the run-time condition under which the step happens; empty means always.
-    `state_before` lists what is known when it starts, sorted by variable and subject.
+    `step_id` is the step's path (`rack[2].insert#1`); `resources` are what it occupies (`left_arm`, `slide`,
+    `base`). `when` holds, in source words, the run-time condition under which the step happens; empty means
+    always. `state_before` lists what is known when it starts, sorted by variable and subject.
     """
 
     step_id: str
@@ -141,7 +142,7 @@ class TimeConstraint:
 
 @dataclass(frozen=True, slots=True)
 class SkillPlan:
-    """The first handoff after the language: ordered skill calls, gaps, notes and timing, all with their sources."""
+    """The first handoff after the language: skill calls, gaps, notes and timing, each with its source."""
 
     protocol: str
     profile: str

@@ -15,10 +15,10 @@ Row = tuple[float, ...]
 class Knots:
     """The exact trajectory `q(t) = path(s(t))`, with t counted from the goal's start.
 
-    `path` is piecewise polynomial in s: on `[breaks[i], breaks[i+1]]`, with `u = s - breaks[i]`, joint j is at
-    `sum_k coefficients[i][k][j] * u**k`. `s` is piecewise quadratic in t: on `[times_s[i], times_s[i+1]]`, with
-    `w = t - times_s[i]`, `s = s_i + ds_i * w + dds_i * w**2 / 2` (constant path acceleration, TOPP-RA). Lengths: `breaks` P+1,
-    `coefficients` P, `times_s`, `s`, `ds` N+1, `dds` N.
+    `path` is piecewise polynomial in s: on `[breaks[i], breaks[i+1]]`, with `u = s - breaks[i]`, joint j is
+    at `sum_k coefficients[i][k][j] * u**k`. `s` is piecewise quadratic in t: on `[times_s[i], times_s[i+1]]`,
+    with `w = t - times_s[i]`, `s = s_i + ds_i * w + dds_i * w**2 / 2` (constant path acceleration, TOPP-RA).
+    Lengths: `breaks` P+1, `coefficients` P, `times_s`, `s`, `ds` N+1, `dds` N.
     """
 
     breaks: Row
@@ -31,7 +31,10 @@ class Knots:
 
 @dataclass(frozen=True, slots=True)
 class Samples:
-    """The trajectory sampled in time: `times_s` from the plan's start, rows of one value a joint (rad or m, per s, per s2)."""
+    """The trajectory sampled in time: rows of one value a joint (rad or m, per s, per s2).
+
+    `times_s` count from the plan's start.
+    """
 
     times_s: Row
     positions: tuple[Row, ...]
@@ -60,8 +63,8 @@ class Placement:
 class TimedGoal:
     """A goal with its time and, where it moves joints, its trajectory.
 
-    `attached` holds while the goal runs; `placed` is what a detach left behind; `tool` is the pose that the tool of
-    `arm` ends at, in the base frame, and `choice` names the member of the family that was chosen.
+    `attached` holds while the goal runs; `placed` is what a detach left behind; `tool` is the pose that the
+    tool of `arm` ends at, in the base frame, and `choice` names the member of the family that was chosen.
     """
 
     id: str
@@ -86,7 +89,10 @@ class TimedGoal:
 
 @dataclass(frozen=True, slots=True)
 class JointLimit:
-    """Planning limits of one joint: rad, rad/s, rad/s2, N m (m, m/s, m/s2, N for the slide and the fingers)."""
+    """Planning limits of one joint: rad, rad/s, rad/s2, N m.
+
+    For the slide and the fingers: m, m/s, m/s2, N.
+    """
 
     joint: str
     lower: float

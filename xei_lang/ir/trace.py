@@ -31,7 +31,10 @@ class RuntimeFeedback:
 
 @dataclass(frozen=True, slots=True)
 class TraceEvent:
-    """One line of a trace. `t` is the run's own clock in seconds; `prev_hash` chains the lines (SHA-256 of the one before)."""
+    """One line of a trace. `t` is the run's own clock in seconds.
+
+    `prev_hash` chains the lines (SHA-256 of the one before).
+    """
 
     seq: int
     t: float

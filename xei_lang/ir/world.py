@@ -11,8 +11,9 @@ from xei_lang.ir.geometry import Pose, Primitive, Vec3
 class WorldObject:
     """An object that was grounded.
 
-    `T_frame_object` places the object's frame (bottom centre, z up) in `frame_id`; `place` is the slot or spot that
-    it stands in (`rack_1.slot("A1")`) or empty. `provenance` says, field by field, which source won.
+    `T_frame_object` places the object's frame (bottom centre, z up) in `frame_id`; `place` is the slot or
+    spot that it stands in (`rack_1.slot("A1")`) or empty. `provenance` says, field by field, which source
+    won.
     """
 
     name: str

@@ -29,7 +29,10 @@ def open_profile(
 
 
 def robot_texts(profile: Profile) -> tuple[str, str]:
-    """The URDF and the SRDF of a profile, as text. Raises OSError where a file went away since the profile was read."""
+    """The URDF and the SRDF of a profile, as text.
+
+    Raises OSError where a file has gone since it was loaded.
+    """
     folder = Path(profile.folder)
     urdf, srdf = folder / profile.bank.urdf, folder / profile.bank.srdf
     return urdf.read_text(encoding="utf-8"), srdf.read_text(encoding="utf-8")

@@ -21,7 +21,9 @@ class Pillar:
 
     def edge_is_free(self, q_start: np.ndarray, q_end: np.ndarray) -> bool:
         count = max(2, int(np.ceil(np.abs(q_end - q_start).max() / 0.01)) + 1)
-        return all(self.is_free(q_start + share * (q_end - q_start)) for share in np.linspace(0.0, 1.0, count))
+        return all(
+            self.is_free(q_start + share * (q_end - q_start)) for share in np.linspace(0.0, 1.0, count)
+        )
 
     def contact(self, q: np.ndarray) -> tuple[str, str] | None:
         return None if self.is_free(q) else ("forearm", "pillar")

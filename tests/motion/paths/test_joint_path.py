@@ -33,7 +33,9 @@ def test_a_path_starts_and_ends_where_it_should(kind: str, waypoints: np.ndarray
 @given(waypoints=points)
 def test_a_path_is_continuous_with_its_first_two_derivatives(kind: str, waypoints: np.ndarray) -> None:
     path = make(kind, waypoints)
-    for left, (start, end) in zip(path.coefficients, zip(path.breaks, path.breaks[1:], strict=False), strict=True):
+    for left, (start, end) in zip(
+        path.coefficients, zip(path.breaks, path.breaks[1:], strict=False), strict=True
+    ):
         if end == path.length:
             continue
         width = end - start

@@ -1,8 +1,10 @@
-"""Collision-free paths between two configurations: the straight line first, then RRT-Connect, shortcuts and rounding."""
+"""Collision-free paths between two configurations: the straight line, or RRT-Connect, shortcuts, rounding."""
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
@@ -95,10 +97,10 @@ def shortcut(space: FreeSpace, waypoints: Array, seed: int) -> Array:
     for _ in range(SHORTCUTS):
         if len(points) < 3:
             break
-        lengths = np.array([_time(space, a, b) for a, b in zip(points, points[1:], strict=False)])
+        lengths = np.array([_time(space, a, b) for a, b in pairwise(points)])
         ends = np.concatenate([[0.0], np.cumsum(lengths)])
-        first, last = np.sort(random.uniform(0.0, ends[-1], 2))
-        i, j = (int(np.clip(np.searchsorted(ends, x, side="right") - 1, 0, len(lengths) - 1)) for x in (first, last))
+        first, last = sorted(random.uniform(0.0, ends[-1], 2).tolist())
+        i, j = (min(bisect_right(ends.tolist(), x), len(lengths)) - 1 for x in (first, last))
         if i == j:
             continue
         a = _between(points[i], points[i + 1], (first - ends[i]) / lengths[i])
@@ -110,7 +112,7 @@ def shortcut(space: FreeSpace, waypoints: Array, seed: int) -> Array:
 
 
 def round_corners(space: FreeSpace, waypoints: Array) -> JointPath:
-    """The polyline with its corners rounded as far as they stay free; the tightest rounding is kept in any case,
+    """The polyline with its corners rounded as far as they stay free. The tightest rounding is kept in any case,
 
     since it leaves the checked polyline by less than `BLEND_FRACTIONS[-1]` of a segment.
     """
@@ -124,8 +126,9 @@ def round_corners(space: FreeSpace, waypoints: Array) -> JointPath:
 
 def _corners_are_free(space: FreeSpace, path: JointPath) -> bool:
     for i in range(1, len(path.breaks) - 1, 2):
-        q = path.evaluate(np.linspace(path.breaks[i], path.breaks[i + 1], _BLEND_SAMPLES), 0)
-        if not all(space.edge_is_free(a, b) for a, b in zip(q, q[1:], strict=False)):
+        start, end = float(path.breaks[i]), float(path.breaks[i + 1])
+        q = path.evaluate(np.linspace(start, end, _BLEND_SAMPLES), 0)
+        if not all(space.edge_is_free(a, b) for a, b in pairwise(q)):
             return False
     return True
 
@@ -141,7 +144,7 @@ def _between(a: Array, b: Array, share: float) -> Array:
 
 def _drop_repeats(points: list[Array]) -> list[Array]:
     kept = [points[0]]
-    kept.extend(b for a, b in zip(points, points[1:], strict=False) if np.max(np.abs(b - a)) > 1e-9)
+    kept.extend(b for a, b in pairwise(points) if np.max(np.abs(b - a)) > 1e-9)
     return kept
 
 

@@ -16,8 +16,9 @@ _MIN_LENGTH = 1e-9
 class JointPath:
     """A path over named joints: on piece i, `q(s) = sum_k coefficients[i, k] * (s - breaks[i])**k`.
 
-    `breaks` has shape (P+1,), ascending from 0; `coefficients` has shape (P, K, n). Every path made here is at least
-    C1, so that TOPP-RA can follow it without stopping; `kind` tells how it came about (`line`, `blend`, `spline`).
+    `breaks` has shape (P+1,), ascending from 0; `coefficients` has shape (P, K, n). Every path made here is
+    at least C1, so that TOPP-RA can follow it without stopping; `kind` tells how it came about (`line`,
+    `blend`, `spline`).
     """
 
     joints: tuple[str, ...]
@@ -41,7 +42,7 @@ class JointPath:
         return self.evaluate(self.breaks[-1:], 0)[0]
 
     def evaluate(self, s: Array, order: int) -> Array:
-        """Positions (order 0) or derivatives with respect to s (1, 2) at path positions of shape (m,): shape (m, n)."""
+        """Positions (order 0) or derivatives by s (order 1, 2) at path positions (m,): shape (m, n)."""
         piece = np.clip(np.searchsorted(self.breaks, s, side="right") - 1, 0, len(self.breaks) - 2)
         u = (s - self.breaks[piece])[:, None]
         coefficients = self.coefficients[piece]
@@ -68,8 +69,9 @@ def line_path(joints: tuple[str, ...], q_start: Array, q_end: Array) -> JointPat
 def blended_path(joints: tuple[str, ...], waypoints: Array, blend_fraction: float = 0.45) -> JointPath:
     """Straight lines through waypoints of shape (m, n) with rounded corners, C2.
 
-    Within `blend_fraction` of the shorter neighbouring segment, the direction turns from one line to the next by the
-    smooth step `3 x^2 - 2 x^3`. A corner stays inside the triangle that its waypoint and its two ends span.
+    Within `blend_fraction` of the shorter neighbouring segment, the direction turns from one line to the
+    next by the smooth step `3 x^2 - 2 x^3`. A corner stays inside the triangle that its waypoint and its two
+    ends span.
     """
     waypoints = _without_repeats(waypoints)
     if len(waypoints) < 3:
@@ -97,7 +99,7 @@ def blended_path(joints: tuple[str, ...], waypoints: Array, blend_fraction: floa
 
 def spline_path(joints: tuple[str, ...], waypoints: Array) -> JointPath:
     """The natural cubic spline through waypoints of shape (m, n) over chord length, C2."""
-    from scipy.interpolate import CubicSpline
+    from scipy.interpolate import CubicSpline  # pyright: ignore[reportMissingTypeStubs]
 
     waypoints = _without_repeats(waypoints)
     if len(waypoints) < 3:

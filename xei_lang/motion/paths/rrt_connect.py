@@ -49,7 +49,7 @@ def rrt_connect(space: FreeSpace, q_start: Array, q_goal: Array, seed: int, max_
     planner.solve(base.PlannerTerminationCondition(lambda: budget[0] <= 0))
     if not problem.hasExactSolution():
         return None
-    found = problem.getSolutionPath()
+    found: Any = problem.getSolutionPath()
     points = [_configuration(space, found.getState(i)) for i in range(found.getStateCount())]
     points[0], points[-1] = q_start, q_goal
     return np.stack(points)

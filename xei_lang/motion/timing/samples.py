@@ -11,7 +11,10 @@ from xei_lang.motion.paths.joint_path import Array, JointPath
 
 
 def evaluate(knots: Knots, t: Array) -> tuple[Array, Array, Array]:
-    """Positions, velocities and accelerations (m, n) at times t (m,) from the goal's start, clipped to its duration."""
+    """Positions, velocities and accelerations (m, n) at times t (m,) from the goal's start.
+
+    Clipped to its duration.
+    """
     times = np.array(knots.times_s)
     index = np.clip(np.searchsorted(times, t, side="right") - 1, 0, len(times) - 2)
     w = np.clip(t, 0.0, times[-1]) - times[index]
@@ -26,7 +29,10 @@ def evaluate(knots: Knots, t: Array) -> tuple[Array, Array, Array]:
 
 
 def sample(knots: Knots, start_s: float, rate_hz: float) -> Samples:
-    """The trajectory at multiples of `1 / rate_hz` from its start, and at its very end; times from the plan's start."""
+    """The trajectory at multiples of `1 / rate_hz` from its start, and at its very end.
+
+    Times from the plan's start.
+    """
     duration = knots.times_s[-1]
     count = math.floor(duration * rate_hz * (1.0 + 1e-12)) + 1
     t = np.arange(count) / rate_hz
@@ -35,9 +41,7 @@ def sample(knots: Knots, start_s: float, rate_hz: float) -> Samples:
     else:
         t[-1] = duration
     position, velocity, acceleration = evaluate(knots, t)
-    return Samples(
-        tuple((start_s + t).tolist()), _rows(position), _rows(velocity), _rows(acceleration)
-    )
+    return Samples(tuple((start_s + t).tolist()), _rows(position), _rows(velocity), _rows(acceleration))
 
 
 def _rows(values: Array) -> tuple[Row, ...]:

@@ -1,7 +1,8 @@
-"""Time-optimal path parameterisation by reachability analysis (Pham and Pham, IEEE T-RO 34(3), 2018), with toppra.
+"""Time-optimal path parameterisation by reachability analysis (Pham and Pham, IEEE T-RO 34(3), 2018).
 
-Interpolation discretisation with constant path acceleration between grid points keeps the limits between grid points
-too (worst seen 1.0003 of the limit); the limits are scaled by `HEADROOM`, so that the exact trajectory stays inside.
+Interpolation discretisation with constant path acceleration between grid points keeps the limits between
+grid points too (worst seen 1.0003 of the limit); the limits are scaled by `HEADROOM`, so that the exact
+trajectory stays inside.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ _GRID_INTERVALS = (100, 200, 400)
 _STILL = 1e-6
 
 InverseDynamics = Callable[[Array, Array, Array], Array]
-"""Torques (m, n) of the path's joints for positions, velocities and accelerations (m, n): N m, N for the slide."""
+"""Torques (m, n) of the path's joints (N m, N for the slide) for positions, velocities and accelerations (m, n)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,9 +68,10 @@ def still(path: JointPath, duration_s: float = 0.0) -> Knots:
 
 
 def _grid(path: JointPath, intervals: int) -> Array:
-    """Grid points: an even division, finer towards the ends where speed is low, and every piece of the path divided,
+    """Grid points: an even division, finer towards the slow ends, and every piece of the path divided,
 
-    for a sharp corner is a piece that is shorter than an interval, and its curvature vanishes at its two ends.
+    for a sharp corner is a piece that is shorter than an interval, and its curvature vanishes at its two
+    ends.
     """
     even = path.length * np.linspace(0.0, 1.0, intervals + 1)
     ends = path.length * np.array([0.001, 0.004, 0.996, 0.999])
@@ -120,7 +122,7 @@ def _keeps_limits(
     limits: tuple[JointLimit, ...],
     inverse_dynamics: InverseDynamics | None,
 ) -> bool:
-    """Whether the exact motion keeps all limits within each grid interval too, looked at in five places of each.
+    """Whether the exact motion keeps all limits within each grid interval too, at five places of each.
 
     A coarse grid can miss the bend of a rounded corner; then the caller takes a finer one.
     """

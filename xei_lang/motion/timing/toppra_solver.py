@@ -1,8 +1,9 @@
-"""The call to toppra, kept in one room: importing it costs most of a second, because it imports matplotlib."""
+"""The call to toppra, in a room of its own: its import costs most of a second (it imports matplotlib)."""
 
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -45,7 +46,7 @@ class _Torque(LinearConstraint):
 
     def __init__(self, inverse_dynamics: Any, bound: Array) -> None:
         super().__init__()
-        self.set_discretization_type(1)
+        self.discretization_type = toppra.constraint.DiscretizationType.Interpolation
         self.identical = True
         self._inverse_dynamics = inverse_dynamics
         self._bound = bound
@@ -58,7 +59,8 @@ class _Torque(LinearConstraint):
         velocity = self._inverse_dynamics(q, dq, ddq) - gravity
         select = np.vstack([np.eye(q.shape[1]), -np.eye(q.shape[1])])
         bounds = np.concatenate([self._bound, self._bound])
-        return canlinear_colloc_to_interpolate(
+        interpolate: Callable[..., Any] = canlinear_colloc_to_interpolate  # pyright: ignore[reportUnknownVariableType]
+        return interpolate(
             inertial, velocity, gravity, select, bounds, None, None, gridpoints, identical=True
         )
 
@@ -77,9 +79,14 @@ def solve_toppra(
     if inverse_dynamics is not None:
         constraints.append(_Torque(inverse_dynamics, torque))
     instance = toppra.algorithm.TOPPRA(
-        constraints, _Path(path), gridpoints=grid, solver_wrapper="seidel", parametrizer="ParametrizeConstAccel"
+        constraints,
+        _Path(path),
+        gridpoints=grid,
+        solver_wrapper="seidel",
+        parametrizer="ParametrizeConstAccel",
     )
-    _, speeds, _ = instance.compute_parameterization(0.0, 0.0)
+    solution: Any = instance.compute_parameterization(0.0, 0.0)
+    speeds = solution[1]
     if speeds is None or not np.all(np.isfinite(speeds)):
         return None
     speeds = np.maximum(np.asarray(speeds, dtype=float), 0.0)
