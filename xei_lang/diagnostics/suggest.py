@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 
 def edit_distance(left: str, right: str) -> int:
-    """Optimal string alignment distance: an insertion, deletion, substitution or swap of neighbours costs 1."""
+    """Optimal string alignment distance: an insertion, deletion, substitution or swap costs 1."""
     before: list[int] = []
     previous = list(range(len(right) + 1))
     for i, a in enumerate(left, start=1):

@@ -112,7 +112,7 @@ def shortcut(space: FreeSpace, waypoints: Array, seed: int) -> Array:
 
 
 def round_corners(space: FreeSpace, waypoints: Array) -> JointPath:
-    """The polyline with its corners rounded as far as they stay free. The tightest rounding is kept in any case,
+    """The polyline with its corners rounded as far as they stay free; the tightest is kept in any case,
 
     since it leaves the checked polyline by less than `BLEND_FRACTIONS[-1]` of a segment.
     """

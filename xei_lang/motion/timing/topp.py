@@ -23,7 +23,7 @@ _GRID_INTERVALS = (100, 200, 400)
 _STILL = 1e-6
 
 InverseDynamics = Callable[[Array, Array, Array], Array]
-"""Torques (m, n) of the path's joints (N m, N for the slide) for positions, velocities and accelerations (m, n)."""
+"""Torques (m, n) of the joints (N m, N for the slide) for positions, velocities, accelerations (m, n)."""
 
 
 @dataclass(frozen=True, slots=True)
