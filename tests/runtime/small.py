@@ -42,6 +42,7 @@ from xei_lang.profiles.model import (
     CalibratedFrame,
     Calibration,
     LabObject,
+    Placeholder,
     PlanningLimit,
     Profile,
     RobotDescription,
@@ -279,7 +280,7 @@ def profile() -> Profile:
         payload_kg=1.0,
         spill_tilt_rad=0.14,
         clearance_m=0.002,
-        placeholders=(("table.height", SPAN),),
+        placeholders=(Placeholder("table.height", "measure the top", SPAN),),
     )
     tube = LabObject(
         "tube_1",

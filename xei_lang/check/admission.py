@@ -25,18 +25,14 @@ def _gap(request: UnmappedRequest) -> Diagnostic:
 
 
 def _placeholders(profile: Profile) -> Diagnostics:
-    calibration = profile.calibration
-    found = [(name, span) for name, span in calibration.placeholders]
-    found += [
-        (f"frames.{frame.name}", frame.span) for frame in calibration.frames if frame.status == "placeholder"
-    ]
     return tuple(
         Diagnostic(
             "XEI0241",
-            f"`{name}` is a placeholder",
-            span,
+            f"`{found.item}` is a placeholder",
+            found.span,
             label="not measured yet",
+            notes=(f"to measure it: {found.measure}",),
             help=("measure it and write its status, or compile without --strict for simulation",),
         )
-        for name, span in dict(found).items()
+        for found in profile.calibration.placeholders
     )

@@ -30,6 +30,9 @@ from xei_lang.syntax.ast import (
 )
 
 
+LANGUAGE_VERSION = 1
+
+
 def profile_name(module: Module) -> tuple[str, Span] | None:
     """The profile that the file's protocol names, and where; None where it names none."""
     for protocol in _protocols(module):
@@ -52,6 +55,7 @@ def check_module(
     context = make_context(module, source, profile, options)
     expander = Expander(context, PlanBuilder(options.max_steps), initial_state(context.registry))
     scope = Scope(context.usage)
+    _check_version(module, expander)
     _check_items(module, expander, scope)
     protocols = _protocols(module)
     plan = _protocol(protocols[0], expander, scope.child(), profile) if protocols else None
@@ -67,6 +71,19 @@ def check_module(
 
 def _protocols(module: Module) -> tuple[Protocol, ...]:
     return tuple(item for item in module.items if isinstance(item, Protocol))
+
+
+def _check_version(module: Module, expander: Expander) -> None:
+    version = module.version
+    if version is None or version.value == LANGUAGE_VERSION:
+        return
+    expander.context.reporter.report(
+        "XEI0108",
+        f"this compiler does not know version {version.value} of the language",
+        version.span,
+        f"expected {LANGUAGE_VERSION}",
+        help=(f"write `xei {LANGUAGE_VERSION}`, or install a compiler that knows the newer language",),
+    )
 
 
 def _check_items(module: Module, expander: Expander, scope: Scope) -> None:

@@ -49,6 +49,9 @@ def command(
 
     Example: xei compile protocols/put_on_rack.xei
     """
+    passes = passes_for(stage)
+    if print_after is not None and print_after not in [step.name for step in passes]:
+        raise click.BadParameter(f"`--emit {stage}` does not get as far", param_hint="--print-after")
     session = open_session(file, options, allow_unmapped=allow_unmapped, strict=strict)
 
     def watch(result: PassResult) -> None:
@@ -59,7 +62,7 @@ def command(
         if time_passes:
             click.echo(f"{result.pass_name:<8} took {result.seconds:.3f} s", err=True)
 
-    made = session.compile(passes_for(stage), watch)
+    made = session.compile(passes, watch)
     sys.exit(_write(session, made, stage, output))
 
 

@@ -16,6 +16,7 @@ from xei_lang.cli.session import Session, open_session
 from xei_lang.diagnostics import Diagnostic, Diagnostics
 from xei_lang.ir.trace import TraceEvent
 from xei_lang.pipeline import ALL, Handoffs
+from xei_lang.runtime.executors import AVAILABLE
 from xei_lang.syntax.reading import read_source
 
 if TYPE_CHECKING:
@@ -24,7 +25,13 @@ if TYPE_CHECKING:
 
 @click.command("run")
 @click.argument("file", type=click.Path(path_type=Path))
-@click.option("--executor", default="dry-run", show_default=True, metavar="NAME", help="Who carries it out.")
+@click.option(
+    "--executor",
+    type=click.Choice(AVAILABLE),
+    default="dry-run",
+    show_default=True,
+    help="Who carries it out.",
+)
 @click.option("--trace", "trace_path", type=click.Path(path_type=Path), help="Write the trace (JSON Lines).")
 @click.option(
     "--answers",

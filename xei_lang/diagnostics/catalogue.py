@@ -30,6 +30,7 @@ _ENTRIES = {
     "XEI0105": Entry("a construct of the language that this version does not compile yet"),
     "XEI0106": Entry("a name that is not lower case"),
     "XEI0107": Entry("a text that is too large or nested too deeply"),
+    "XEI0108": Entry("a version of the language that this compiler does not know"),
     # 02xx names and binding
     "XEI0201": Entry("a skill that the robot does not have"),
     "XEI0202": Entry("a name that nothing has"),

@@ -60,18 +60,13 @@ class Manifest:
 
 
 def deployment_blockers(profile: Profile) -> tuple[Blocker, ...]:
-    """Placeholders of the calibration, frames among them, and assets stated to be missing; each once."""
-    calibration = profile.calibration
+    """Placeholders of the calibration, and assets of the lab's own objects that are stated to be missing."""
     found = [
-        *(("calibration_profile", name, "placeholder") for name, _ in calibration.placeholders),
-        *(
-            ("calibration_profile", f"frames.{frame.name}", "placeholder")
-            for frame in calibration.frames
-            if frame.status == "placeholder"
-        ),
+        *(("calibration_profile", found.item, "placeholder") for found in profile.calibration.placeholders),
         *(
             ("usage_profile", f"objects.{item.name}.assets.{asset}", "missing")
             for item in profile.objects
+            if not item.system
             for asset, path in item.assets
             if path is None
         ),

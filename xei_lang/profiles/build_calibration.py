@@ -8,6 +8,7 @@ from xei_lang.diagnostics import Diagnostic, Span, did_you_mean
 from xei_lang.profiles.build_objects import pose, vec3
 from xei_lang.profiles.model import (
     CalibratedFrame,
+    Placeholder,
     Calibration,
     PlanningLimit,
     RobotDescription,
@@ -155,25 +156,29 @@ def _units_fit(limit: LimitModel, joint: RobotJoint, root: Node, index: int, fou
     return True
 
 
-def _placeholders(model: CalibrationProfile, root: Node) -> Iterator[tuple[str, Span]]:
+def _placeholders(model: CalibrationProfile, root: Node) -> Iterator[Placeholder]:
     """Everything that nobody has measured, in the order of the file's sections."""
+
+    def found(measure: str, *path: str) -> Placeholder:
+        return Placeholder(".".join(path), measure, root.key_span(*path))
+
     for name, frame in model.frames.items():
         if frame.status == "placeholder":
-            yield f"frame `{name}`: {frame.method}", root.key_span("frames", name)
+            yield found(frame.method, "frames", name)
     for name, station in model.stations.items():
         if station.status == "placeholder":
-            yield f"station `{name}`: drive there and record the base's pose", root.key_span("stations", name)
+            yield found("drive there and record the base's pose", "stations", name)
     if model.base.docking.status == "placeholder":
-        yield "docking tolerance: measure it over repeated drives", root.key_span("base", "docking")
+        yield found("measure it over repeated drives", "base", "docking")
     if model.table.status == "placeholder":
-        yield f"table height: {model.table.method}", root.key_span("table")
+        yield found(model.table.method, "table")
     if model.map.status == "placeholder" or None in (model.map.yaml, model.map.image, model.map.sha256):
-        yield "map: build and record one", root.key_span("map")
+        yield found("build and record a map", "map")
     if model.apriltags.status == "placeholder":
-        yield "AprilTags of the tables: stick them on and measure their places", root.key_span("apriltags")
+        yield found("stick the tags on and measure their places", "apriltags")
     for name, camera in model.cameras.items():
         if camera.status == "placeholder":
-            yield f"camera `{name}`: calibrate its intrinsics", root.key_span("cameras", name)
+            yield found("calibrate its intrinsics", "cameras", name)
     for name, lidar in model.lidars.items():
         if lidar.status == "placeholder":
-            yield f"lidar `{name}`: confirm its mount and topics", root.key_span("lidars", name)
+            yield found("confirm its mount and topics", "lidars", name)

@@ -28,7 +28,7 @@ def scene(given: Handoffs, executor: str, speed: float) -> dict[str, Any]:
         "table_frame": _frame(given, table),
         "camera": _frame(given, "camera"),
         "workspace_bounds_m": {"frame": "robot_base", "lower": list(lower), "upper": list(upper)},
-        "placeholders": [name for name, _ in calibration.placeholders],
+        "placeholders": [found.item for found in calibration.placeholders],
     }
 
 

@@ -13,6 +13,7 @@ from xei_lang.profiles.model.bank import ArgSpec, SkillBank, SkillRule, SkillSpe
 from xei_lang.profiles.model.calibration import (
     CalibratedFrame,
     Calibration,
+    Placeholder,
     PlanningLimit,
     SceneOrigin,
     Status,
@@ -38,6 +39,7 @@ __all__ = [
     "LabObject",
     "Liquid",
     "NamedState",
+    "Placeholder",
     "OperationDefault",
     "PlanningLimit",
     "Prior",

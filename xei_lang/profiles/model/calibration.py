@@ -58,6 +58,15 @@ class SceneOrigin:
 
 
 @dataclass(frozen=True, slots=True)
+class Placeholder:
+    """Something that nobody has measured yet: which item of the calibration profile, and how to measure it."""
+
+    item: str
+    measure: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
 class Calibration:
     """Frames, limits and tolerances of this deployment. Bounds are `(min xyz, max xyz)` in their frame,
     metres.
@@ -82,5 +91,5 @@ class Calibration:
     payload_kg: float
     spill_tilt_rad: float
     clearance_m: float
-    placeholders: tuple[tuple[str, Span], ...]
+    placeholders: tuple[Placeholder, ...]
     robot_frames: tuple[tuple[str, str], ...] = ()

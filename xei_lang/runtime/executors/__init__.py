@@ -12,6 +12,10 @@ from xei_lang.runtime.failure import Failure, failure
 from xei_lang.runtime.handoffs import Handoffs
 
 EXECUTORS = ("dry-run", "simulate", "ros2")
+"""All executors that the language of plans knows."""
+
+AVAILABLE = ("dry-run",)
+"""Those that this version has."""
 
 
 class Executor(Protocol):
