@@ -5,51 +5,16 @@ from __future__ import annotations
 from bisect import bisect_right
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Protocol
 
 import numpy as np
 
 from xei_lang.motion.paths.joint_path import Array, JointPath, blended_path, line_path
+from xei_lang.motion.paths.rrt_connect import rrt_connect
+from xei_lang.motion.paths.space import FreeSpace
 
 SHORTCUTS = 80
 BLEND_FRACTIONS = (0.45, 0.2, 0.08, 0.02)
 _BLEND_SAMPLES = 12
-
-
-class FreeSpace(Protocol):
-    """What a path may use: `lower`, `upper` and `speed` are arrays (n,) over the moving joints."""
-
-    @property
-    def joints(self) -> tuple[str, ...]:
-        """The names of the moving joints."""
-        ...
-
-    @property
-    def lower(self) -> Array:
-        """Lower ends of their ranges (n,)."""
-        ...
-
-    @property
-    def upper(self) -> Array:
-        """Upper ends of their ranges (n,)."""
-        ...
-
-    @property
-    def speed(self) -> Array:
-        """Their velocity limits (n,)."""
-        ...
-
-    def is_free(self, q: Array) -> bool:
-        """Whether the configuration (n,) touches nothing it may not touch."""
-        ...
-
-    def edge_is_free(self, q_start: Array, q_end: Array) -> bool:
-        """Whether every configuration on the straight line is free."""
-        ...
-
-    def contact(self, q: Array) -> tuple[str, str] | None:
-        """The two bodies that touch at a configuration, or None."""
-        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,8 +46,6 @@ def plan_free_path(
             return PathBlocked(where, bodies)
     if space.edge_is_free(q_start, q_goal):
         return FreePath(line_path(space.joints, q_start, q_goal), "line")
-    from xei_lang.motion.paths.rrt_connect import rrt_connect
-
     waypoints = rrt_connect(space, q_start, q_goal, seed, max_checks)
     if waypoints is None:
         return PathBlocked("between", _first_contact(space, q_start, q_goal))

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from ompl import base, geometric, util  # pyright: ignore[reportMissingTypeStubs]
 
-from xei_lang.motion.paths.free import FreeSpace
 from xei_lang.motion.paths.joint_path import Array
+from xei_lang.motion.paths.space import FreeSpace
 
 RANGE_S = 0.35
 """Longest extension of a tree, as seconds of motion at full speed."""
