@@ -35,6 +35,10 @@ MAX_GLANCES = 6
 DETOUR_FACTOR = 1.3
 DETOUR_S = 0.5
 """What a way around something is taken to cost beside the straight way, where that is blocked."""
+BLOCKED_S = 1.0
+"""What is added to transits that are like one that found no path."""
+OTHER_BRANCH_S = 3.0
+"""What a change of branch is taken to cost where the hand must stay upright: it leads past a singular posture."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +93,7 @@ def plan_group(context: Context, group: Group, start: Snapshot, ahead: Ahead) ->
     found: tuple[Motion, ...] | Failure = Unplaced(rehearsals[0], ())
     for effort in (LEAN, THOROUGH):
         found = _attempt(context, group, rehearsals, start, ahead, effort)
-        if not isinstance(found, Unplaced):
+        if isinstance(found, tuple):
             break
     return found
 
@@ -130,7 +134,7 @@ def _search(
 ) -> tuple[Motion, ...] | Failure:
     now = start.q[context.arm_indices(group.arm)]
     speeds = context.speeds(context.arm_joints(group.arm))
-    transitions = _transitions(now, search, speeds)
+    transitions = _transitions(context, now, search, speeds)
     last = search.layers[search.own - 1]
     homeward = np.zeros(len(last))
     if ahead.configuration is not None:
@@ -147,7 +151,7 @@ def _search(
         result = _realise(context, group, search, run[1:], start)
         if not isinstance(result, _BlockedAt):
             return result
-        transitions[result.stage][run[result.stage], run[result.stage + 1]] = np.inf
+        _avoid(search, result.stage, run, transitions[result.stage])
         failure = BlockedTransit(search.rehearsals[result.stage].chain.head, result.blocked)
         blocked += 1
     assert failure is not None
@@ -162,7 +166,7 @@ def _stages(now: Array, search: _Search, homeward: Array) -> tuple[Stage, ...]:
     return (first, *stages)
 
 
-def _transitions(now: Array, search: _Search, speeds: Speeds) -> tuple[Array, ...]:
+def _transitions(context: Context, now: Array, search: _Search, speeds: Speeds) -> tuple[Array, ...]:
     """Travel times between the group's stages; into a chain that is only looked ahead to, whether it may
     follow at all.
     """
@@ -171,11 +175,31 @@ def _transitions(now: Array, search: _Search, speeds: Speeds) -> tuple[Array, ..
     for index, mask in enumerate((None, *_joined(search))):
         before, after = stages[index], stages[index + 1]
         if index < search.own:
-            cost = speeds.travel_s(before.exit, after.entry)
+            cost = speeds.travel_s(before.exit, after.entry) + _branch_s(context, now, search, index)
         else:
             cost = np.zeros((len(before.cost), len(after.cost)))
         costs.append(cost if mask is None else np.where(mask, cost, np.inf))
     return tuple(costs)
+
+
+def _branch_s(context: Context, now: Array, search: _Search, stage: int) -> Array:
+    """What the change of branch into each candidate of a stage adds, where the hand must stay upright."""
+    rehearsal, after = search.rehearsals[stage], search.layers[stage].branch
+    if not keeps_upright(rehearsal):
+        return np.zeros((1, len(after)))
+    solver = context.solvers[rehearsal.chain.arm]
+    before = search.layers[stage - 1].branch if stage else np.array([solver.describe(now[1:])[1]])
+    return OTHER_BRANCH_S * (before[:, None] != after[None, :])
+
+
+def _avoid(search: _Search, stage: int, run: tuple[int, ...], costs: Array) -> None:
+    """Strike a transit that found no path out, and make those like it dear: same grasps, branches and slide
+    heights.
+    """
+    pair = run[stage], run[stage + 1]
+    first = search.layers[stage - 1].like(pair[0]) if stage else np.ones(1, dtype=bool)
+    costs[np.ix_(first, search.layers[stage].like(pair[1]))] += BLOCKED_S
+    costs[pair] = np.inf
 
 
 def _allowed(rehearsal: Rehearsal) -> Bools:

@@ -64,6 +64,11 @@ class Layer:
     def __len__(self) -> int:
         return len(self.member)
 
+    def like(self, index: int) -> Bools:
+        """Candidates (n,) of the same grasp, branch and slide height as one of them."""
+        same = (self.member == self.member[index]) & (self.branch == self.branch[index])
+        return same & (self.q[:, 0, 0] == self.q[index, 0, 0])
+
     def stage(self, alive: Bools) -> Stage:
         """The layer as the dynamic programme sees it, with the candidates that still hold."""
         return Stage(self.q[:, 0], self.q[:, -1], self.cost, alive)
