@@ -40,15 +40,12 @@ class Geometry:
     """All geometry of a scene, one row each: coal objects in pinocchio's model, the body's name and its
     joint.
 
-    joint: (g,) pinocchio's joint index, 0 for what stands still. center, radius: a ball (g, 3), (g,) around
-    the geometry in the joint's frame. held: (g,) bool, held by a hand.
+    joint: (g,) pinocchio's joint index, 0 for what stands still. held: (g,) bool, held by a hand.
     """
 
     model: Any = field(repr=False)
     names: tuple[str, ...]
     joint: NDArray[np.int64]
-    center: Array
-    radius: Array
     held: NDArray[np.bool_]
 
 
@@ -66,13 +63,10 @@ def scene_geometry(
         placement = tool.placement * pin.SE3(np.array(body.T_tool_object.matrix()))
         names += _add(model, body, tool.parentJoint, placement)
     held_names = {body.name for body in attached}
-    balls = [_ball(item) for item in model.geometryObjects]
     return Geometry(
         model=model,
         names=tuple(names),
         joint=np.array([item.parentJoint for item in model.geometryObjects], dtype=np.int64),
-        center=np.array([center for center, _ in balls]).reshape(-1, 3),
-        radius=np.array([radius for _, radius in balls]),
         held=np.array([row >= count and name in held_names for row, name in enumerate(names)]),
     )
 
@@ -103,8 +97,8 @@ def _coal_shape(shape: Shape) -> Any:
             return coal.Capsule(radius_m, height_m)
 
 
-def _ball(item: Any) -> tuple[Array, float]:
-    """Centre in the joint's frame and radius of a ball around a geometry."""
+def ball(item: Any) -> tuple[Array, float]:
+    """Centre (3,) in the joint's frame and radius in metres of a ball around a geometry object."""
     item.geometry.computeLocalAABB()
     center = np.asarray(item.placement.act(item.geometry.aabb_center))
     return center.copy(), float(item.geometry.aabb_radius)

@@ -17,7 +17,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from xei_lang.motion.collision.bodies import Geometry
+from xei_lang.motion.collision.bodies import Geometry, ball
 from xei_lang.motion.robot import Array, Robot
 
 MARGINS_M = (0.04, 0.01, 0.0025)
@@ -70,16 +70,22 @@ def _split(stretch: tuple[float, float], closing_m: float, margin_m: float) -> l
 
 
 def motion_bound(robot: Robot, geometry: Geometry, checked: NDArray[np.bool_]) -> MotionBound:
-    """Levers of all pairs (g, g) that are checked, equal rows and rows that others cover left out."""
+    """Levers of all pairs (g, g) that are checked, one row for each two joints that carry such a pair.
+
+    A joint that moves both bodies of a pair or neither brings them no nearer to each other.
+    """
     own = _levers(robot, geometry)
-    moves = own > 0.0
     first, second = np.nonzero(checked)
-    differ = moves[first] ^ moves[second]
-    rows = np.where(differ, own[first] + own[second], 0.0)
-    kinds, kind = np.unique(differ, axis=0, return_inverse=True)
-    lever = np.zeros(kinds.shape)
-    np.maximum.at(lever, kind.reshape(-1), rows)
-    return MotionBound(lever)
+    carriers = geometry.joint[first] * (robot.nq + 1) + geometry.joint[second]
+    order = np.argsort(carriers, kind="stable")
+    first, second, carriers = first[order], second[order], carriers[order]
+    starts = np.flatnonzero(np.diff(carriers, prepend=-1))
+    if len(starts) == 0:
+        return MotionBound(np.zeros((0, robot.nq)))
+    moves = own > 0.0
+    differ = moves[first[starts]] ^ moves[second[starts]]
+    farthest = np.maximum.reduceat(own[first], starts) + np.maximum.reduceat(own[second], starts)
+    return MotionBound(np.where(differ, farthest, 0.0))
 
 
 def _levers(robot: Robot, geometry: Geometry) -> Array:
@@ -91,12 +97,14 @@ def _levers(robot: Robot, geometry: Geometry) -> Array:
     """
     axes = _axes(robot)
     levers = np.zeros((len(geometry.names), robot.nq))
-    for row, carrier in enumerate(geometry.joint.tolist()):
+    for row, (carrier, item) in enumerate(
+        zip(geometry.joint.tolist(), geometry.model.geometryObjects, strict=True)
+    ):
         if carrier == 0:
             continue
-        joint = carrier
-        center = axes[joint].rotation @ geometry.center[row] + axes[joint].origin
-        reach = float(np.linalg.norm(center - axes[joint].point)) + float(geometry.radius[row])
+        joint, (middle, radius) = carrier, ball(item)
+        center = axes[joint].rotation @ middle + axes[joint].origin
+        reach = float(np.linalg.norm(center - axes[joint].point)) + radius
         while joint > 0:
             levers[row, joint - 1] = reach if axes[joint].revolute else 1.0
             parent = int(robot.model.parents[joint])

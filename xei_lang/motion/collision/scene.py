@@ -27,7 +27,7 @@ class Contact:
 @dataclass(frozen=True, slots=True)
 class _Engine:
     """The compiled scene. Placements, margins and results are overwritten by every query: one thread at a
-    time.
+    time. The bound is made when an edge is first asked for: many scenes are asked for configurations only.
     """
 
     geometry: Geometry
@@ -35,7 +35,14 @@ class _Engine:
     joints: Any
     broad_phase: Any
     padding: Array
-    bound: MotionBound
+    checked: NDArray[np.bool_]
+    bounds: list[MotionBound] = field(default_factory=list[MotionBound])
+
+    def bound(self, robot: Robot) -> MotionBound:
+        """How far the bodies of checked pairs move against each other."""
+        if not self.bounds:
+            self.bounds.append(motion_bound(robot, self.geometry, self.checked))
+        return self.bounds[0]
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,7 +122,7 @@ class CollisionScene:
         certifies.
         """
         engine = self._engine()
-        return edge_is_free(engine.bound, q_start, q_end, self._is_clear)
+        return edge_is_free(engine.bound(self.robot), q_start, q_end, self._is_clear)
 
     def edge_is_free_sampled(self, q_start: Array, q_end: Array, step_rad: float) -> bool:
         """Whether samples at most `step_rad` apart in any joint are free: cheap, and blind between them."""
@@ -155,8 +162,7 @@ class CollisionScene:
         broad_phase = pin.BroadPhaseManager_DynamicAABBTreeCollisionManager(
             self.robot.model, geometry.model, data
         )
-        bound = motion_bound(self.robot, geometry, checked)
-        return _Engine(geometry, data, self.robot.model.createData(), broad_phase, padding, bound)
+        return _Engine(geometry, data, self.robot.model.createData(), broad_phase, padding, checked)
 
     def _checked_pairs(self, geometry: Geometry) -> NDArray[np.bool_]:
         """Upper triangle (g, g) of pairs that may not touch."""
