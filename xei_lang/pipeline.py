@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -26,7 +26,7 @@ Progress = Callable[[str, int, int], None]
 """Called by long passes with the pass's name, how much is done and how much there is."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Request:
     """Everything that a compilation is a function of."""
 
@@ -41,10 +41,10 @@ class Request:
     strict: bool = False
     seed: int = 0
     rate_hz: float = 100.0
-    progress: Progress | None = field(default=None, compare=False)
+    progress: Progress | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Handoffs:
     """The representations made so far; each pass fills in one."""
 
@@ -57,7 +57,7 @@ class Handoffs:
     verified: Checked | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Pass:
     """One step of the compilation.
 
@@ -71,7 +71,7 @@ class Pass:
     run: Callable[[Request, Handoffs], tuple[Handoffs, Diagnostics]]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class PassResult:
     """What a pass did, for those who watch: printing, timing, verification between passes."""
 
@@ -82,7 +82,7 @@ class PassResult:
     failed: bool
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Outcome:
     """The end of a compilation: what was made, everything that was said, and the pass that stopped it."""
 

@@ -10,7 +10,7 @@ from xei_lang.diagnostics import Edit, Fix, Label, Span, did_you_mean
 from xei_lang.syntax.ast import Arg, Call
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Signature:
     """What can be called: `kind` is `skill` or `procedure`; `rule` is its place in a profile, if any."""
 

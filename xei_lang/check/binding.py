@@ -32,7 +32,7 @@ from xei_lang.syntax.ast import Name, ObjectDecl, Param, Range, StringLit
 _NOTHING: Mapping[str, str] = MappingProxyType({})
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class CheckOptions:
     """How to check.
 

@@ -33,7 +33,7 @@ from xei_lang.syntax.ast import Arg, Call, Expression
 from xei_lang.world.places import accepts, place_text
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class CheckedCall:
     """A call that holds: its skill, its effects, and its arguments in the skill's order."""
 
@@ -47,7 +47,7 @@ class CheckedCall:
         return {argument.name: argument.value for argument in self.arguments}
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class _Prepared:
     skill: SkillSpec
     signature: Signature

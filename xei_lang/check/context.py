@@ -21,7 +21,7 @@ from xei_lang.profiles.model import Profile
 from xei_lang.syntax.ast import Import, Module, Procedure
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Context:
     """What every part of the expansion uses."""
 

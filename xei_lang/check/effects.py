@@ -37,7 +37,7 @@ _OTHER_PARTS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Effect:
     """`variable(subject) := value`, the subject and perhaps the value being names of arguments."""
 

@@ -9,7 +9,7 @@ from xei_lang.diagnostics import Span
 from xei_lang.syntax.ast import TypeExpr
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Expectation:
     """`what` takes a `type`: "`volume` of `pour`" takes a Volume, by the rule written at `rule`.
 

@@ -9,7 +9,7 @@ from xei_lang.diagnostics import did_you_mean
 from xei_lang.syntax.ast import Attr, Expression, Index, Name, Number, Range, StepRef
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Extent:
     """From the first to the last step that a label covers; both are the same for a single step."""
 

@@ -14,7 +14,7 @@ from xei_lang.syntax.ast import Note, Step, Unmapped
 _Places = set[tuple[Span, tuple[Call, ...]]]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Where:
     """Where in the protocol the checker is.
 

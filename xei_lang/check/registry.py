@@ -9,7 +9,7 @@ from xei_lang.profiles.model import LabObject, Profile, SkillSpec
 from xei_lang.syntax.ast import Role, TypeExpr, walk
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Registry:
     """Objects, stations, skills, arms and roles of one profile."""
 

@@ -14,7 +14,7 @@ SymbolKind = Literal["object", "parameter", "variable", "loop variable", "measur
 _SHOULD_BE_USED = ("object", "parameter", "variable")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Symbol:
     """A declared name: what it is worth, and where it was declared."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import importlib
 import sys
 from typing import Any
@@ -47,6 +48,9 @@ def main() -> None:
 
 def run(argv: list[str] | None = None) -> None:
     """Entry point of the console script. Never shows a traceback for something that the user did."""
+    # What a start makes (classes, tables, a tree) it keeps: to search it for cycles as it grows, and once more
+    # at the end, is an eighth of a small check. The search begins where there is more than any start makes.
+    gc.set_threshold(200_000)
     try:
         main.main(args=argv, prog_name="xei", standalone_mode=False)
     except click.exceptions.Exit as stop:
@@ -64,6 +68,8 @@ def run(argv: list[str] | None = None) -> None:
     except Exception as bug:
         _report_bug(bug)
         sys.exit(OUR_BUG)
+    finally:
+        gc.freeze()
 
 
 def _report_bug(bug: Exception) -> None:

@@ -15,7 +15,7 @@ import click
 Pairs = tuple[tuple[str, str], ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Options:
     """What every command that compiles a protocol can be told."""
 

@@ -17,7 +17,7 @@ from xei_lang.profiles.compiled import default_cache
 from xei_lang.syntax.reading import read_source
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Session:
     """A protocol that was read, what is asked of its compilation, and how to talk about it."""
 

@@ -13,7 +13,7 @@ from types import MappingProxyType
 from typing import Literal
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Entry:
     """What a code stands for: a title that needs no context, and how grave it is."""
 
@@ -115,6 +115,7 @@ _ENTRIES = {
     "XEI0713": Entry("a surface without free room"),
     "XEI0714": Entry("an object that is too wide for a slot"),
     "XEI0715": Entry("a robot that starts at no known station"),
+    "XEI0716": Entry("a hand that holds something and has no carry pose"),
     # 08xx motion
     "XEI0801": Entry("an object or a place that is out of reach"),
     "XEI0802": Entry("a place that no grasp reaches without touching something"),
@@ -123,6 +124,8 @@ _ENTRIES = {
     "XEI0805": Entry("a slide height outside the slide's stroke"),
     "XEI0806": Entry("a move that motion planning does not know"),
     "XEI0807": Entry("a configuration outside the joints' range"),
+    "XEI0808": Entry("a held object that cannot be brought to its carry pose"),
+    "XEI0809": Entry("a held object that is tilted before it is carried"),
     "XEI0850": Entry("a timed plan is not well formed"),
     "XEI0851": Entry("a number in a timed plan is not finite"),
     "XEI0852": Entry("a timed plan does other goals than were asked for"),

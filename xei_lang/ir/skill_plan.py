@@ -12,6 +12,7 @@ from typing import Literal
 
 from xei_lang.diagnostics import Span
 from xei_lang.quantity import Quantity
+from xei_lang.record import Record
 
 StepKind = Literal[
     "skill", "wait", "confirm", "start", "await", "pause", "stop", "leave", "measure", "require"
@@ -20,15 +21,15 @@ Side = Literal["left", "right"]
 ArmChoice = Literal["left", "right", "either"]
 
 
-@dataclass(frozen=True, slots=True)
-class ObjectRef:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ObjectRef(Record):
     """A registered object, by its name in the usage profile."""
 
     name: str
 
 
-@dataclass(frozen=True, slots=True)
-class PlaceRef:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class PlaceRef(Record):
     """A place on or in an object: a slot of a rack (`kind="slot"`, `key="A1"`) or a named spot of a surface.
 
     Written `rack_1.slot("A1")` or `table.spot("bottle")`; a whole surface has `kind="surface"` and an empty
@@ -40,8 +41,8 @@ class PlaceRef:
     key: str
 
 
-@dataclass(frozen=True, slots=True)
-class StationRef:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class StationRef(Record):
     """A navigation pose from which a bench is worked: a scene origin of the calibration profile."""
 
     name: str
@@ -51,8 +52,8 @@ Value = Quantity | int | float | bool | str | ObjectRef | PlaceRef | StationRef 
 """What an argument can be once it is checked. An arm is its name as a string (`left`, `right`, `either`)."""
 
 
-@dataclass(frozen=True, slots=True)
-class Argument:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Argument(Record):
     """A checked argument: its value and where both came from (`default` when the skill bank supplied it)."""
 
     name: str
@@ -62,16 +63,16 @@ class Argument:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Call:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Call(Record):
     """One frame of the call chain that led to a step: the procedure and where it was called."""
 
     procedure: str
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Fact:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Fact(Record):
     """A known value of a state variable: `holding(left) == tube_1`, `at(tube_1) == rack_1.slot("A1")`."""
 
     variable: str
@@ -79,8 +80,8 @@ class Fact:
     value: Value
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Step(Record):
     """One step of the plan.
 
     `step_id` is the step's path (`rack[2].insert#1`); `resources` are what it occupies (`left_arm`, `slide`,
@@ -108,8 +109,8 @@ class Step:
         return next((argument.value for argument in self.args if argument.name == name), None)
 
 
-@dataclass(frozen=True, slots=True)
-class UnmappedRequest:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class UnmappedRequest(Record):
     """Something that was asked for and that this robot cannot do, kept in its place."""
 
     text: str
@@ -118,8 +119,8 @@ class UnmappedRequest:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class SafetyNote:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class SafetyNote(Record):
     """A note of the protocol that people who run it must read."""
 
     text: str
@@ -127,8 +128,8 @@ class SafetyNote:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class TimeConstraint:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class TimeConstraint(Record):
     """`lower_s <= time(to) - time(from) <= upper_s` between ends of steps (`upper_s` may be infinite)."""
 
     from_step: str
@@ -140,8 +141,8 @@ class TimeConstraint:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class SkillPlan:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class SkillPlan(Record):
     """The first handoff after the language: skill calls, gaps, notes and timing, each with its source."""
 
     protocol: str

@@ -15,7 +15,7 @@ REGISTRY = "object_registry.yaml"
 MAX_TEXT_BYTES = 2_000_000
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class ProfileFiles:
     """A profile folder as read: `shown` is its path for messages, `hashes` the SHA-256 of each file below it,
     sorted.

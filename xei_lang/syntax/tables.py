@@ -14,6 +14,7 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
+from xei_lang.record import Record
 from xei_lang.resources import resource_path
 
 STARTS = ("module", "predicate", "expression", "role_expression")
@@ -21,8 +22,8 @@ END = "$END"
 _FORMAT = 1
 
 
-@dataclass(frozen=True, slots=True)
-class Rule:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Rule(Record):
     """One production. `parts` holds (index, spliced) of each child; the index -1 stands for a missing option.
 
     `passes` marks a production whose only child is its value; `action` names the builder's method, or is
@@ -37,8 +38,8 @@ class Rule:
     parts: tuple[tuple[int, bool], ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Tables:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Tables(Record):
     """`actions[state][terminal]` is a state to shift to, or `-1 - rule` to reduce by; `gotos` are for rules.
 
     `patterns` are (name, regular expression) in the order in which to try them, `words` the keywords and

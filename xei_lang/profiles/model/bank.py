@@ -8,14 +8,15 @@ from typing import TYPE_CHECKING
 from xei_lang.diagnostics import Span
 from xei_lang.profiles.model.lab import OperationDefault
 from xei_lang.quantity import Quantity
+from xei_lang.record import Record
 
 if TYPE_CHECKING:
     from xei_lang.ir.goals import GoalKind
     from xei_lang.syntax.ast import Predicate, TypeExpr
 
 
-@dataclass(frozen=True, slots=True)
-class ArgSpec:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ArgSpec(Record):
     """An argument of a skill. `type` is `object`, `Place`, `Station`, `Arm`, a quantity's type, `Int`,
     `Float`, `Bool`, `String`, or `choice` (then `choices` are its words). Bounds hold for quantities and
     numbers, ends included.
@@ -37,8 +38,8 @@ class ArgSpec:
     roles_text: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class SkillRule:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class SkillRule(Record):
     """A predicate of a skill's contract, in its words and parsed."""
 
     text: str
@@ -46,8 +47,8 @@ class SkillRule:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class TemplateStep:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class TemplateStep(Record):
     """One line of a skill's template: a goal kind and its fields, whose values may name arguments (`arm`),
     points of an operation (`object.pregrasp`) or operation parameters (`open_width`).
     """
@@ -61,8 +62,8 @@ class TemplateStep:
         return dict(self.fields).get(name)
 
 
-@dataclass(frozen=True, slots=True)
-class SkillSpec:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class SkillSpec(Record):
     """A registered skill: its contract and its template."""
 
     name: str
@@ -85,8 +86,8 @@ class SkillSpec:
         return next((item for item in self.args if item.name == name), None)
 
 
-@dataclass(frozen=True, slots=True)
-class SkillBank:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class SkillBank(Record):
     """The capability contract: the robot's parts and everything it has learnt to do."""
 
     urdf: str

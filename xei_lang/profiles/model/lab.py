@@ -8,10 +8,11 @@ from typing import Literal
 from xei_lang.diagnostics import Span
 from xei_lang.ir.geometry import Pose, Primitive, Shape, Vec3
 from xei_lang.quantity import Quantity
+from xei_lang.record import Record
 
 
-@dataclass(frozen=True, slots=True)
-class Liquid:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Liquid(Record):
     """A container's volumes in m3 and its inner diameter in m."""
 
     capacity_m3: float
@@ -19,8 +20,8 @@ class Liquid:
     inner_diameter_m: float
 
 
-@dataclass(frozen=True, slots=True)
-class FiniteState:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class FiniteState(Record):
     """A declared state of an object, its values and the value it starts with."""
 
     name: str
@@ -29,8 +30,8 @@ class FiniteState:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class SlotGrid:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class SlotGrid(Record):
     """A grid of slots: `rows[i]` and column j (from 1) name the slot `A1`; its mouth stands at `origin_m +
     (j-1) * pitch_m[0] * x + i * pitch_m[1] * y` in the object's frame, its axis along z.
 
@@ -48,8 +49,8 @@ class SlotGrid:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Spot:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Spot(Record):
     """A named place on a surface: where the bottom centre of an object stands, in the surface's frame."""
 
     name: str
@@ -57,8 +58,8 @@ class Spot:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Element:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Element(Record):
     """An element of a touch screen: centre and size on the screen's plane, metres."""
 
     name: str
@@ -67,8 +68,8 @@ class Element:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Prior:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Prior(Record):
     """Where an object is believed to be: in a place of another object, or (`in_object` empty) at a pose in a
     frame.
     """
@@ -82,8 +83,8 @@ class Prior:
     in_kind: Literal["", "slot", "spot"] = ""
 
 
-@dataclass(frozen=True, slots=True)
-class OperationDefault:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class OperationDefault(Record):
     """An operation parameter that a profile states for an object or a skill (`approach`, `width`,
     `standoff`).
     """
@@ -93,8 +94,8 @@ class OperationDefault:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class LabObject:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class LabObject(Record):
     """An object of the usage profile or a system object of the registry. Its frame is at its bottom centre, z
     up.
     """

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 from typing import Literal
 
 from xei_lang.ir.geometry import Pose, Vec3
+from xei_lang.record import Record
 
 
-@dataclass(frozen=True, slots=True)
-class RobotJoint:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class RobotJoint(Record):
     """A joint of the URDF: its links, its place in the parent link, and its range and rating (rad or m, rad/s
     or m/s, N m or N).
 
@@ -29,8 +30,8 @@ class RobotJoint:
     mimic: str
 
 
-@dataclass(frozen=True, slots=True)
-class NamedState:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class NamedState(Record):
     """A named configuration of a group of joints in the SRDF (`home` of `left_arm`)."""
 
     name: str
@@ -38,8 +39,8 @@ class NamedState:
     joints: tuple[tuple[str, float], ...]
 
 
-@dataclass(frozen=True, slots=True)
-class RobotDescription:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class RobotDescription(Record):
     """The robot's tree and its named states; `root` is the link that no joint carries."""
 
     root: str

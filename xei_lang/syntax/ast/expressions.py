@@ -8,50 +8,51 @@ from typing import Literal
 
 from xei_lang.diagnostics import Span
 from xei_lang.quantity import Quantity
+from xei_lang.record import Shown
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Name:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Name(Shown):
     """A name where it is declared or used."""
 
     id: str
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Number:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Number(Shown):
     """A plain number: an int if it was written without a decimal point, else an exact fraction."""
 
     value: int | Fraction
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class QuantityLit:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class QuantityLit(Shown):
     """A number with a unit, never negative: `-20 degC` is a Unary over it."""
 
     value: Quantity
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class StringLit:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class StringLit(Shown):
     """A text; `value` has its escapes resolved, the span covers the quotes."""
 
     value: str
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Bool:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Bool(Shown):
     """`true` or `false`."""
 
     value: bool
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Unary:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Unary(Shown):
     """`-operand` or `not operand`."""
 
     op: Literal["-", "not"]
@@ -59,8 +60,8 @@ class Unary:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Binary:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Binary(Shown):
     """Arithmetic on two values."""
 
     op: Literal["+", "-", "*", "/"]
@@ -69,8 +70,8 @@ class Binary:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Compare:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Compare(Shown):
     """One comparison; the grammar has no chains of them."""
 
     op: Literal["==", "!=", "<=", ">=", "<", ">"]
@@ -79,8 +80,8 @@ class Compare:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class BoolOp:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class BoolOp(Shown):
     """`left and right`, `left or right`."""
 
     op: Literal["and", "or"]
@@ -89,8 +90,8 @@ class BoolOp:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Attr:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Attr(Shown):
     """`value.name`, as in `rack.row`."""
 
     value: Expression
@@ -98,8 +99,8 @@ class Attr:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Range:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Range(Shown):
     """`lower .. upper`, both ends included, with an optional step."""
 
     lower: Expression
@@ -108,8 +109,8 @@ class Range:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Index:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Index(Shown):
     """`value[index]`; a Range selects several."""
 
     value: Expression
@@ -117,8 +118,8 @@ class Index:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Arg:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Arg(Shown):
     """One argument of a call; `name` is None where only a value was given."""
 
     name: Name | None
@@ -126,8 +127,8 @@ class Arg:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class CallExpr:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class CallExpr(Shown):
     """A call that has a value, such as `rack.row("A")` or `volume(tube)`."""
 
     function: Expression
@@ -135,24 +136,24 @@ class CallExpr:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class ListLit:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ListLit(Shown):
     """`[a, b]`."""
 
     items: tuple[Expression, ...]
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class TupleLit:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class TupleLit(Shown):
     """`(a, b)`, of two items or more."""
 
     items: tuple[Expression, ...]
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Comprehension:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Comprehension(Shown):
     """`[element for names in iterable if condition]`."""
 
     element: Expression
@@ -184,8 +185,8 @@ StepRef = Name | Attr | Index
 """A step by its path: `warm`, `warm[2]`, `call.warm`."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Update:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Update(Shown):
     """What a skill does to a state variable: `cap(object) := open`, `volume(source) -= volume`."""
 
     target: Expression

@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from xei_lang.diagnostics import Span
+from xei_lang.record import Shown
 from xei_lang.syntax.ast.expressions import Expression, Name, Number, Range, StringLit
 from xei_lang.syntax.ast.statements import Statement
 from xei_lang.syntax.ast.types import TypeExpr
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Comment:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Comment(Shown):
     """A comment with its `#`, up to the end of its line."""
 
     text: str
@@ -23,16 +24,16 @@ class Comment:
         return self.text.startswith("##")
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Import:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Import(Shown):
     """`import "path"`."""
 
     path: StringLit
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class ImportTable:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ImportTable(Shown):
     """`import table "path" as name`."""
 
     path: StringLit
@@ -40,16 +41,16 @@ class ImportTable:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class ProfileDecl:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ProfileDecl(Shown):
     """`profile "name"`."""
 
     name: StringLit
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Param:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Param(Shown):
     """A parameter of a protocol or procedure; `doc` is the text of the `##` lines before it."""
 
     name: Name
@@ -60,8 +61,8 @@ class Param:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class ObjectDecl:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ObjectDecl(Shown):
     """`object name: roles [= binding]`."""
 
     name: Name
@@ -71,16 +72,16 @@ class ObjectDecl:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Given:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Given(Shown):
     """`given condition`."""
 
     condition: Expression
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class GivenContains:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class GivenContains(Shown):
     """`given container contains amount of content [at concentration]`."""
 
     container: Expression
@@ -94,8 +95,8 @@ Declaration = ProfileDecl | Param | ObjectDecl | Given | GivenContains
 Member = Declaration | Statement
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Procedure:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Procedure(Shown):
     """`procedure name(params) { ... }`."""
 
     name: Name
@@ -105,8 +106,8 @@ class Procedure:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Protocol:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Protocol(Shown):
     """`protocol name { ... }`; declarations and statements in the order in which they were written."""
 
     name: Name
@@ -118,8 +119,8 @@ class Protocol:
 Item = Import | ImportTable | Protocol | Procedure
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Module:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Module(Shown):
     """A whole file. `version` is the number behind `xei`, None where the file does not say."""
 
     version: Number | None

@@ -5,20 +5,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from xei_lang.diagnostics import Span
+from xei_lang.record import Shown
 from xei_lang.syntax.ast.expressions import Arg, Expression, Name, Range, StepRef, StringLit
 from xei_lang.syntax.ast.types import TypeExpr
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Block:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Block(Shown):
     """`{ ... }`; the span covers the braces."""
 
     statements: tuple[Statement, ...]
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Within:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Within(Shown):
     """`within duration [of step]`: bounds the step itself, or the time since the end of another."""
 
     duration: Expression
@@ -26,8 +27,8 @@ class Within:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class After:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class After(Shown):
     """`after step [by range]`."""
 
     step: StepRef
@@ -38,8 +39,8 @@ class After:
 Clause = Within | After
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Call:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Call(Shown):
     """A skill or procedure with its arguments."""
 
     callee: Name
@@ -47,56 +48,56 @@ class Call:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Wait:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Wait(Shown):
     """`wait duration`."""
 
     duration: Expression
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Start:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Start(Shown):
     """`start label: call`; the label is that of the Step around it."""
 
     call: Call
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Await:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Await(Shown):
     """`await step`."""
 
     step: StepRef
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Stop:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Stop(Shown):
     """`stop step` ends what was started."""
 
     step: StepRef
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class StopRun:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class StopRun(Shown):
     """`stop "message"` ends the run."""
 
     message: StringLit
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Leave:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Leave(Shown):
     """`leave step` lets what was started outlive the protocol."""
 
     step: StepRef
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Pause:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Pause(Shown):
     """`pause step { ... }`."""
 
     step: StepRef
@@ -104,8 +105,8 @@ class Pause:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Keep:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Keep(Shown):
     """`keep condition { ... }`: holds at every point inside."""
 
     condition: Expression
@@ -113,8 +114,8 @@ class Keep:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Measure:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Measure(Shown):
     """`measure name: type = call [in limits]`; the name is also the step's name."""
 
     name: Name
@@ -124,32 +125,32 @@ class Measure:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Confirm:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Confirm(Shown):
     """`confirm "text"`: a step of a person."""
 
     text: StringLit
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Do:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Do(Shown):
     """`do { ... }`: a block that can carry a label and clauses."""
 
     body: Block
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Parallel:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Parallel(Shown):
     """`parallel { {...} {...} }`, of one branch or more."""
 
     branches: tuple[Block, ...]
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class For:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class For(Shown):
     """`for names in iterable [unordered] { ... }`."""
 
     names: tuple[Name, ...]
@@ -159,8 +160,8 @@ class For:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Repeat:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Repeat(Shown):
     """`repeat count times [until condition] { ... } [else { ... }]`."""
 
     count: Expression
@@ -170,8 +171,8 @@ class Repeat:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class If:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class If(Shown):
     """`if condition { ... } [else ...]`; an `else if` is an If in `otherwise`."""
 
     condition: Expression
@@ -200,8 +201,8 @@ Action = (
 )
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Step:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Step(Shown):
     """An action with its label and its clauses; `label.span` covers the name without the colon."""
 
     label: Name | None
@@ -210,8 +211,8 @@ class Step:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Let:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Let(Shown):
     """`let name = value`."""
 
     name: Name
@@ -219,16 +220,16 @@ class Let:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Require:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Require(Shown):
     """`require condition`."""
 
     condition: Expression
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Unmapped:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Unmapped(Shown):
     """`unmapped "text" [because "reason"]`: a request that the protocol does not fulfil."""
 
     text: StringLit
@@ -236,8 +237,8 @@ class Unmapped:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Note:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Note(Shown):
     """`note "text"`: a safety note that the plan carries."""
 
     text: StringLit

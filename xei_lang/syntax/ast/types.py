@@ -8,19 +8,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from xei_lang.diagnostics import Span
+from xei_lang.record import Shown
 from xei_lang.syntax.ast.expressions import Name
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Role:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Role(Shown):
     """The name of a role or of a value type."""
 
     id: str
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class RoleAnd:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class RoleAnd(Shown):
     """`left & right`."""
 
     left: TypeExpr
@@ -28,8 +29,8 @@ class RoleAnd:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class RoleOr:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class RoleOr(Shown):
     """`left | right`."""
 
     left: TypeExpr
@@ -37,16 +38,16 @@ class RoleOr:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class RoleNot:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class RoleNot(Shown):
     """`not operand`."""
 
     operand: TypeExpr
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Generic:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Generic(Shown):
     """`List[Volume]`."""
 
     name: Name
