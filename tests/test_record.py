@@ -34,7 +34,7 @@ def test_equal_fields_of_one_class_are_equal_and_hash_alike() -> None:
 
 def test_what_is_only_shown_compares_by_identity() -> None:
     node = Node(Pair(1))
-    assert node == node  # noqa: PLR0124
+    assert node == node
     assert node != Node(Pair(1))
     assert len({node, Node(Pair(1))}) == 2
 

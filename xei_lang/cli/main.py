@@ -48,8 +48,8 @@ def main() -> None:
 
 def run(argv: list[str] | None = None) -> None:
     """Entry point of the console script. Never shows a traceback for something that the user did."""
-    # What a start makes (classes, tables, a tree) it keeps: to search it for cycles as it grows, and once more
-    # at the end, is an eighth of a small check. The search begins where there is more than any start makes.
+    # What a start makes (classes, tables, a tree) it keeps: to search it for cycles as it grows, and once
+    # more at the end, is an eighth of a small check. The search begins where there is more than that.
     gc.set_threshold(200_000)
     try:
         main.main(args=argv, prog_name="xei", standalone_mode=False)
