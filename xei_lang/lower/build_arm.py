@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import get_args
 
 from xei_lang.diagnostics import Label
-from xei_lang.ir.goals import Attach, Detach, Grip, JointTarget, MoveTo, Parameter, PathKind
+from xei_lang.ir.goals import Attach, Detach, Grip, MoveTo, Parameter, PathKind
 from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, Side
+from xei_lang.lower.carry import states_of, to_carry_poses, to_configuration
 from xei_lang.lower.draft import Builder, Draft, contacts
 from xei_lang.lower.hand import hand_of
 from xei_lang.lower.operations import Planned, operation_of_point
@@ -17,30 +19,12 @@ from xei_lang.lower.refusal import refuse
 from xei_lang.lower.seats import place_text
 from xei_lang.lower.task import Task, refuse_template
 from xei_lang.lower.walk import Held, Standing
-from xei_lang.profiles.model import Profile, TemplateStep
+from xei_lang.profiles.model import TemplateStep
 
 _PATHS: tuple[PathKind, ...] = get_args(PathKind)
 
 
-def configuration(
-    profile: Profile, name: str, side: Side | None
-) -> tuple[JointTarget, tuple[str, ...]] | None:
-    """A named state of the robot description as a target, with the resources it takes; None where there is
-    none.
-
-    With a side, only that arm's joints; a state is the union of its groups' states, and each group is a
-    resource.
-    """
-    states = [state for state in profile.robot.states if state.name == name]
-    if side is not None:
-        states = [state for state in states if state.group == f"{side}_arm"]
-    if not states:
-        return None
-    joints = tuple(joint for state in states for joint in state.joints)
-    return JointTarget(name, joints), tuple(state.group for state in states)
-
-
-def _move_to(task: Task, line: TemplateStep) -> Draft:
+def _move_to(task: Task, line: TemplateStep) -> Draft | tuple[Draft, ...]:
     path = line.field("path") or "free"
     if path not in _PATHS:
         refuse_template(line, f"`{path}` is not a path", f"expected one of {', '.join(_PATHS)}")
@@ -67,20 +51,26 @@ def _speed(task: Task, line: TemplateStep) -> Setting | None:
     return setting
 
 
-def _move_to_configuration(task: Task, line: TemplateStep, path: PathKind, speed: Setting | None) -> Draft:
+def _move_to_configuration(
+    task: Task, line: TemplateStep, path: PathKind, speed: Setting | None
+) -> tuple[Draft, ...]:
+    """Arms that hold something go to their carry poses first, then the others to the configuration."""
     name, side = str(line.field("configuration")), _maybe_arm(task, line)
-    found = configuration(task.profile, name, side)
-    if found is None:
+    states = states_of(task.profile, name, side)
+    if not states:
         refuse_template(
             line,
             f"the robot's description has no configuration `{name}`",
             "expected a named state of the SRDF",
             f"rule: {task.profile.bank.srdf}",
         )
-    target, resources = found
     fraction = speed.si("Fraction") if speed else 1.0
-    action = MoveTo(target, side, path, line.field("keep") == "upright", fraction)
-    return Draft("move_to", action, resources, task.scene, _told(speed), contacts(task.scene, task.scene))
+    upright = line.field("keep") == "upright"
+    drafts = (
+        *to_carry_poses(states, task.scene, task.profile, task.step.span, fraction),
+        *to_configuration(states, task.scene, side, path, upright, fraction),
+    )
+    return tuple(replace(draft, parameters=(*draft.parameters, *_told(speed))) for draft in drafts)
 
 
 def _move_to_point(task: Task, line: TemplateStep, path: PathKind, speed: Setting | None) -> Draft:
@@ -172,6 +162,7 @@ def _attach(task: Task, line: TemplateStep) -> Draft:
         subject.name,
         planned.family,
         standing.T_world_object,
+        task.scene.in_base(standing.T_world_object),
         planned.settings["standoff"].si("Length"),
         planned.settings["grasp_width"].si("Length"),
         planned.floor_m,

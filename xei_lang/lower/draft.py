@@ -32,11 +32,11 @@ class Draft:
 
 @dataclass(frozen=True, slots=True)
 class Builder:
-    """How a goal kind is written in templates (its fields) and what makes the draft of it."""
+    """How a goal kind is written in templates (its fields) and what makes the draft of it, or the drafts."""
 
     required: tuple[str, ...]
     optional: tuple[str, ...]
-    build: Callable[[Task, TemplateStep], Draft]
+    build: Callable[[Task, TemplateStep], Draft | tuple[Draft, ...]]
 
 
 def contacts(before: Scene, after: Scene, flying: Side | None = None) -> tuple[Contact, ...]:

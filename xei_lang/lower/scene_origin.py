@@ -1,4 +1,4 @@
-"""The posture from which a bench is worked: both arms `ready`, the slide at the station's height.
+"""The posture from which a bench is worked: empty hands `ready`, the slide at the station's height.
 
 The robot goes there before anything else, and again after every drive: what lies between is a drive's
 transport pose.
@@ -6,9 +6,9 @@ transport pose.
 
 from __future__ import annotations
 
-from xei_lang.ir.goals import MoveTo, SlideMove
+from xei_lang.ir.goals import SlideMove
 from xei_lang.ir.world import World
-from xei_lang.lower.build_arm import configuration
+from xei_lang.lower.carry import states_of, to_configuration
 from xei_lang.lower.draft import Draft, contacts
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.walk import Scene
@@ -29,19 +29,19 @@ def scene_origin(scene: Scene, world: World, profile: Profile, station: SceneOri
     rise_m = station.slide_m - now.get("slide_joint", 0.0)
     ready = profile.robot.state("ready")
     away = any(abs(now.get(name, 0.0) - value) > _SAME for name, value in ready)
-    ordered = ((rise_m > _SAME, slide), (away, arms), (rise_m < -_SAME, slide))
-    return tuple(draft for wanted, draft in ordered if wanted)
+    ordered = ((rise_m > _SAME, (slide,)), (away, arms), (rise_m < -_SAME, (slide,)))
+    return tuple(draft for wanted, drafts in ordered if wanted for draft in drafts)
 
 
 def arrival(
     scene: Scene, profile: Profile, station: SceneOrigin, template: tuple[TemplateStep, ...]
 ) -> tuple[Draft, ...]:
-    """The motion after a drive: the slide, then the arms, as far as the skill's own template does not say
-    otherwise.
+    """The motion after a drive: the slide, then the arms whose hands are empty, as far as the skill's own
+    template does not say otherwise.
     """
     kinds = [line.kind for line in template]
     after = kinds[kinds.index("nav_to_pose") + 1 :]
-    drafts = (_slide(scene, station), _arms_ready(scene, profile, station))
+    drafts = (_slide(scene, station), *_arms_ready(scene, profile, station))
     return tuple(draft for draft in drafts if draft.kind not in after)
 
 
@@ -49,9 +49,10 @@ def _slide(scene: Scene, station: SceneOrigin) -> Draft:
     return Draft("slide_move", SlideMove(station.slide_m), ("slide",), scene, (), contacts(scene, scene))
 
 
-def _arms_ready(scene: Scene, profile: Profile, station: SceneOrigin) -> Draft:
-    found = configuration(profile, "ready", None)
-    if found is None:
+def _arms_ready(scene: Scene, profile: Profile, station: SceneOrigin) -> tuple[Draft, ...]:
+    """Empty hands go to `ready`; one that holds something stays where it has carried it."""
+    states = states_of(profile, "ready", None)
+    if not states:
         refuse(
             "XEI0701",
             "the robot's description has no configuration `ready`",
@@ -59,5 +60,4 @@ def _arms_ready(scene: Scene, profile: Profile, station: SceneOrigin) -> Draft:
             "needed before this station is worked at",
             notes=(f"rule: {profile.bank.srdf}",),
         )
-    target, resources = found
-    return Draft("move_to", MoveTo(target), resources, scene, (), contacts(scene, scene))
+    return to_configuration(states, scene)

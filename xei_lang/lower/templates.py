@@ -1,5 +1,5 @@
-"""Declarative templates: each line of a skill's template becomes one goal. A new skill is a few lines of
-the skill bank.
+"""Declarative templates: each line of a skill's template becomes one goal (a named configuration one for each
+hand that holds something, and one for the rest). A new skill is a few lines of the skill bank.
 """
 
 from __future__ import annotations
@@ -41,9 +41,9 @@ def expand(task: Task) -> tuple[Draft, ...]:
     drafts: list[Draft] = []
     for line in task.spec.template:
         builder = _builder(line)
-        draft = builder.build(task, line)
-        task.scene = draft.scene
-        drafts.append(draft)
+        built = builder.build(task, line)
+        drafts.extend(built if isinstance(built, tuple) else (built,))
+        task.scene = drafts[-1].scene if drafts else task.scene
     return tuple(drafts)
 
 

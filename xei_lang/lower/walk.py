@@ -34,7 +34,8 @@ class Standing:
 
 @dataclass(frozen=True, slots=True)
 class Held:
-    """An object in a hand: the family it was grasped with and where it stood then.
+    """An object in a hand: the family it was grasped with and where it stood then, in `world` and as the base
+    saw it.
 
     `sunk_m` is how deep it stood in its slot. `touching` names the support that it has not left yet, or
     reaches at the end of a linear move; empty in the air.
@@ -43,6 +44,7 @@ class Held:
     object: str
     family: Family
     T_world_grasped: Pose
+    T_base_grasped: Pose
     standoff_m: float
     grasp_width_m: float
     sunk_m: float

@@ -8,12 +8,14 @@ from xei_lang.diagnostics import Diagnostic, Span, did_you_mean
 from xei_lang.profiles.build_objects import pose, vec3
 from xei_lang.profiles.model import (
     CalibratedFrame,
-    Placeholder,
     Calibration,
+    CarryPose,
+    Placeholder,
     PlanningLimit,
     RobotDescription,
     RobotJoint,
     SceneOrigin,
+    Status,
 )
 from xei_lang.profiles.schema.calibration import CalibrationProfile, LimitModel
 from xei_lang.profiles.yaml_tree import Node
@@ -45,6 +47,7 @@ def build_calibration(
         clearance_m=model.clearance.si,
         placeholders=tuple(_placeholders(model, root)),
         robot_frames=tuple(model.robot_frames.items()),
+        carry=tuple(_carry(model, root)),
     )
 
 
@@ -74,6 +77,11 @@ def _stations(model: CalibrationProfile, root: Node) -> Iterator[SceneOrigin]:
             slide_m=station.slide.si,
             span=root.key_span("stations", name),
         )
+
+
+def _carry(model: CalibrationProfile, root: Node) -> Iterator[CarryPose]:
+    for arm, carry in model.carry.items():
+        yield CarryPose(arm, vec3(carry.position), carry.status, carry.reason, root.key_span("carry", arm))
 
 
 def _limits(
@@ -158,27 +166,25 @@ def _units_fit(limit: LimitModel, joint: RobotJoint, root: Node, index: int, fou
 
 def _placeholders(model: CalibrationProfile, root: Node) -> Iterator[Placeholder]:
     """Everything that nobody has measured, in the order of the file's sections."""
+    for status, measure, path in _facts(model):
+        if status == "placeholder":
+            yield Placeholder(".".join(path), measure, root.key_span(*path))
 
-    def found(measure: str, *path: str) -> Placeholder:
-        return Placeholder(".".join(path), measure, root.key_span(*path))
 
+def _facts(model: CalibrationProfile) -> Iterator[tuple[Status, str, tuple[str, ...]]]:
+    """The status of each calibrated fact, how to measure it, and where it stands."""
     for name, frame in model.frames.items():
-        if frame.status == "placeholder":
-            yield found(frame.method, "frames", name)
+        yield frame.status, frame.method, ("frames", name)
     for name, station in model.stations.items():
-        if station.status == "placeholder":
-            yield found("drive there and record the base's pose", "stations", name)
-    if model.base.docking.status == "placeholder":
-        yield found("measure it over repeated drives", "base", "docking")
-    if model.table.status == "placeholder":
-        yield found(model.table.method, "table")
-    if model.map.status == "placeholder" or None in (model.map.yaml, model.map.image, model.map.sha256):
-        yield found("build and record a map", "map")
-    if model.apriltags.status == "placeholder":
-        yield found("stick the tags on and measure their places", "apriltags")
+        yield station.status, "drive there and record the base's pose", ("stations", name)
+    for arm, carry in model.carry.items():
+        yield carry.status, "hold each kind of object there and look", ("carry", arm)
+    yield model.base.docking.status, "measure it over repeated drives", ("base", "docking")
+    yield model.table.status, model.table.method, ("table",)
+    files = (model.map.yaml, model.map.image, model.map.sha256)
+    yield "placeholder" if None in files else model.map.status, "build and record a map", ("map",)
+    yield model.apriltags.status, "stick the tags on and measure their places", ("apriltags",)
     for name, camera in model.cameras.items():
-        if camera.status == "placeholder":
-            yield found("calibrate its intrinsics", "cameras", name)
+        yield camera.status, "calibrate its intrinsics", ("cameras", name)
     for name, lidar in model.lidars.items():
-        if lidar.status == "placeholder":
-            yield found("confirm its mount and topics", "lidars", name)
+        yield lidar.status, "confirm its mount and topics", ("lidars", name)

@@ -13,6 +13,7 @@ from xei_lang.profiles.model.bank import ArgSpec, SkillBank, SkillRule, SkillSpe
 from xei_lang.profiles.model.calibration import (
     CalibratedFrame,
     Calibration,
+    CarryPose,
     Placeholder,
     PlanningLimit,
     SceneOrigin,
@@ -29,11 +30,13 @@ from xei_lang.profiles.model.lab import (
     Spot,
 )
 from xei_lang.profiles.model.robot import NamedState, RobotDescription, RobotJoint
+from xei_lang.record import Record
 
 __all__ = [
     "ArgSpec",
     "CalibratedFrame",
     "Calibration",
+    "CarryPose",
     "Element",
     "FiniteState",
     "LabObject",
@@ -57,8 +60,8 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True, slots=True)
-class Profile:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Profile(Record):
     """A whole profile folder: all objects sorted by name, the skill bank, the calibration, the robot's
     description.
 

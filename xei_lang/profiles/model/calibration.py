@@ -7,12 +7,14 @@ from typing import Literal
 
 from xei_lang.diagnostics import Span
 from xei_lang.ir.geometry import Pose, Vec3
+from xei_lang.ir.skill_plan import Side
+from xei_lang.record import Record
 
 Status = Literal["measured", "estimated", "placeholder"]
 
 
-@dataclass(frozen=True, slots=True)
-class CalibratedFrame:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class CalibratedFrame(Record):
     """A static transform of the deployment and how well it is known."""
 
     name: str
@@ -26,8 +28,8 @@ class CalibratedFrame:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class PlanningLimit:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class PlanningLimit(Record):
     """The limits that plans keep for one joint, and why these: rad, rad/s, rad/s2, N m (m, N for prismatic
     joints).
     """
@@ -42,8 +44,8 @@ class PlanningLimit:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class SceneOrigin:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class SceneOrigin(Record):
     """A station: the base pose (in `world`) from which a bench is worked, and the frame to ground again
     there.
     """
@@ -57,8 +59,21 @@ class SceneOrigin:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Placeholder:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class CarryPose(Record):
+    """Where the hand of an arm keeps what it holds while the base drives: the object's origin in the base
+    frame, m.
+    """
+
+    arm: Side
+    position_m: Vec3
+    status: Status
+    reason: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Placeholder(Record):
     """Something that nobody has measured yet: which item of the calibration profile, and how to measure it."""
 
     item: str
@@ -66,8 +81,8 @@ class Placeholder:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Calibration:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Calibration(Record):
     """Frames, limits and tolerances of this deployment. Bounds are `(min xyz, max xyz)` in their frame,
     metres.
 
@@ -93,3 +108,8 @@ class Calibration:
     clearance_m: float
     placeholders: tuple[Placeholder, ...]
     robot_frames: tuple[tuple[str, str], ...] = ()
+    carry: tuple[CarryPose, ...] = ()
+
+    def carry_pose(self, arm: Side) -> CarryPose | None:
+        """Where this arm carries what it holds, or None where the profile does not say."""
+        return next((pose for pose in self.carry if pose.arm == arm), None)

@@ -71,6 +71,14 @@ class StationModel(Model):
     slide: Distance
 
 
+class CarryModel(Model):
+    """Where a hand keeps what it holds while the base drives: the object's origin, in `robot_base`."""
+
+    position: LengthVector
+    status: Status
+    reason: Text
+
+
 class DockingModel(Model):
     """How well the base reaches a station (bounds)."""
 
@@ -163,6 +171,7 @@ class CalibrationProfile(Model):
     limits: list[LimitModel]
     start_station: Name
     stations: dict[Name, StationModel]
+    carry: dict[Literal["left", "right"], CarryModel] = Field(default={})
     base: MobileBaseModel
     table: TableModel
     workspace: Bounds
