@@ -22,6 +22,7 @@ from xei_lang.motion.robot import Robot, load_robot
 from xei_lang.motion.sequence.ahead import look_ahead
 from xei_lang.motion.sequence.assemble import RATE_HZ, Untimed, time_motion
 from xei_lang.motion.sequence.blame import blame_group, blame_path, blame_timing, refuse
+from xei_lang.motion.sequence.blame_carry import blame_carry, refuse_tilted
 from xei_lang.motion.sequence.context import Context, planning_limits
 from xei_lang.motion.sequence.fixed import plan_fixed
 from xei_lang.motion.sequence.group import plan_group
@@ -94,8 +95,13 @@ def _plan_part(
         motion = plan_fixed(context, part, now)
         return blame_path(context, part, motion) if isinstance(motion, PathBlocked) else (motion,)
     assert isinstance(part, Group)
+    tilted = refuse_tilted(context, part, now)
+    if tilted is not None:
+        return tilted
     found = plan_group(context, part, now, look_ahead(context, part, later, now))
-    return found if isinstance(found, tuple) else blame_group(context, found)
+    if isinstance(found, tuple):
+        return found
+    return blame_carry(context, part, found) or blame_group(context, found)
 
 
 def _plan(

@@ -30,18 +30,23 @@ def _next_configuration(context: Context, arm: Side, later: tuple[Part, ...]) ->
 
 
 def _release(context: Context, arm: Side, later: tuple[Part, ...], now: Snapshot) -> tuple[Rehearsal, ...]:
-    """The next chain of the arm, where it begins with the object in the hand."""
+    """The next chains of the arm while the object is in its hand, carry poses before drives among them, up to
+    the one that sets it down.
+    """
     if arm not in now.held:
         return ()
+    found: list[Rehearsal] = []
     for part in later:
         if isinstance(part, MotionGoal):
             now = _passed(context, part, now)
             continue
         rehearsals = rehearse_group(context, part, now)
-        if part.arm == arm:
-            return rehearsals[:1]
+        for item in rehearsals if part.arm == arm else ():
+            found.append(item)
+            if arm not in item.after.held:
+                return tuple(found)
         now = rehearsals[-1].after
-    return ()
+    return tuple(found)
 
 
 def _passed(context: Context, goal: MotionGoal, now: Snapshot) -> Snapshot:
