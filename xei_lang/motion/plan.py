@@ -21,8 +21,9 @@ from xei_lang.motion.paths.free import PathBlocked
 from xei_lang.motion.robot import Robot, load_robot
 from xei_lang.motion.sequence.ahead import look_ahead
 from xei_lang.motion.sequence.assemble import RATE_HZ, Untimed, time_motion
-from xei_lang.motion.sequence.blame import blame_group, blame_path, blame_timing, refuse
+from xei_lang.motion.sequence.blame import blame_group, blame_timing, refuse
 from xei_lang.motion.sequence.blame_carry import blame_carry, refuse_tilted
+from xei_lang.motion.sequence.blame_way import blame_path
 from xei_lang.motion.sequence.context import Context, planning_limits
 from xei_lang.motion.sequence.fixed import plan_fixed
 from xei_lang.motion.sequence.group import plan_group
@@ -93,7 +94,7 @@ def _plan_part(
 ) -> tuple[Motion, ...] | Diagnostic:
     if isinstance(part, MotionGoal):
         motion = plan_fixed(context, part, now)
-        return blame_path(context, part, motion) if isinstance(motion, PathBlocked) else (motion,)
+        return blame_path(context, part, motion, now) if isinstance(motion, PathBlocked) else (motion,)
     assert isinstance(part, Group)
     tilted = refuse_tilted(context, part, now)
     if tilted is not None:

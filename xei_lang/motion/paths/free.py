@@ -19,10 +19,13 @@ _BLEND_SAMPLES = 12
 
 @dataclass(frozen=True, slots=True)
 class PathBlocked:
-    """No path was found: which two bodies met, and whether at the start, the goal or between."""
+    """No path was found: which two bodies met, and whether at the start, the goal or between.
+
+    `bodies` is None where nothing is met: then the straight way leaves the range of the joints.
+    """
 
     where: str
-    bodies: tuple[str, str]
+    bodies: tuple[str, str] | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,10 +114,10 @@ def _drop_repeats(points: list[Array]) -> list[Array]:
     return kept
 
 
-def _first_contact(space: FreeSpace, q_start: Array, q_goal: Array) -> tuple[str, str]:
+def _first_contact(space: FreeSpace, q_start: Array, q_goal: Array) -> tuple[str, str] | None:
     """The bodies that meet first on the straight line: the likeliest thing in the way."""
     for share in np.linspace(0.0, 1.0, 200):
         bodies = space.contact(_between(q_start, q_goal, float(share)))
         if bodies is not None:
             return bodies
-    return ("robot", "world")
+    return None

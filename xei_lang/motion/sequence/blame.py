@@ -6,8 +6,6 @@ from __future__ import annotations
 
 from xei_lang.diagnostics import Diagnostic
 from xei_lang.ir.goals import (
-    Attach,
-    Detach,
     JointTarget,
     MotionGoal,
     MotionGoalGraph,
@@ -15,8 +13,8 @@ from xei_lang.ir.goals import (
     SlideMove,
     ToolTarget,
 )
-from xei_lang.motion.paths.free import PathBlocked
 from xei_lang.motion.sequence.assemble import Untimed
+from xei_lang.motion.sequence.blame_way import blame_transit, mm, who
 from xei_lang.motion.sequence.census import Census, take_census
 from xei_lang.motion.sequence.context import Context
 from xei_lang.motion.sequence.group import BlockedTransit, Failure, Unplaced
@@ -86,9 +84,9 @@ def _out_of_range(
         if joint == context.slide_joint:
             return Diagnostic(
                 "XEI0805",
-                f"the slide cannot stand at {_mm(value)}",
+                f"the slide cannot stand at {mm(value)}",
                 goal.span,
-                f"expected {_mm(limit.lower)} .. {_mm(limit.upper)}",
+                f"expected {mm(limit.lower)} .. {mm(limit.upper)}",
                 notes=(f"the stroke of `{joint}` is a planning limit of the calibration profile",),
             )
         return Diagnostic(
@@ -101,41 +99,10 @@ def _out_of_range(
     return None
 
 
-def blame_path(context: Context, goal: MotionGoal, blocked: PathBlocked) -> Diagnostic:
-    """A move whose way is blocked: which two bodies meet, and where on the way."""
-    first, second = blocked.bodies
-    where = {
-        "start": "they touch before the move begins",
-        "goal": "they would touch where the move ends",
-        "between": "they meet on the straight way, and no way around them was found",
-    }[blocked.where]
-    return Diagnostic(
-        "XEI0803",
-        f"the way of {_who(goal)} is blocked: `{first}` would touch `{second}`",
-        goal.span,
-        f"no free path to {_whither(goal)}",
-        notes=(
-            where,
-            "bodies touch where the goal does not allow it, measured on the profile's collision shapes",
-        ),
-        help=_path_help(context, blocked.bodies),
-    )
-
-
-def _path_help(context: Context, bodies: tuple[str, str]) -> tuple[str, ...]:
-    movable = [name for name in bodies if (item := context.world.find(name)) is not None and item.movable]
-    if movable:
-        return (f"move `{movable[0]}` out of the way first",)
-    fixed = [name for name in bodies if context.world.find(name) is not None]
-    if fixed:
-        return (f"check where the usage profile says that `{fixed[0]}` stands",)
-    return ("bring the other arm to `ready` first",)
-
-
 def blame_group(context: Context, failure: Failure) -> Diagnostic:
     """A chain that found no candidate, or a transit that found no path."""
     if isinstance(failure, BlockedTransit):
-        return blame_path(context, failure.goal, failure.blocked)
+        return blame_transit(context, failure)
     census = take_census(context, failure)
     if census.within_limits == 0:
         return _unreachable(context, failure, census)
@@ -148,8 +115,8 @@ def _unreachable(context: Context, failure: Unplaced, census: Census) -> Diagnos
     notes = [_counted(census)]
     if reach.shortfall_m > 0.0:
         notes.append(
-            f"the nearest grasp is {_mm(reach.shortfall_m)} out of reach,"
-            f" with the slide at {_mm(reach.slide_m)}"
+            f"the nearest grasp is {mm(reach.shortfall_m)} out of reach,"
+            f" with the slide at {mm(reach.slide_m)}"
         )
     else:
         notes.append("the place is near enough, but every posture of the arm passes a joint limit")
@@ -216,7 +183,7 @@ def blame_timing(context: Context, failed: Untimed) -> Diagnostic:
     if not failure.joint:
         return Diagnostic(
             "XEI0804",
-            f"no timing of {_who(goal)} keeps its limits",
+            f"no timing of {who(goal)} keeps its limits",
             goal.span,
             failure.reason,
             notes=("limits: planning limits of the calibration profile",),
@@ -239,31 +206,6 @@ def _subject(chain: Chain) -> str:
     if chain.attach is not None:
         return f"`{chain.attach.object}`"
     return f"`{chain.family.reference}`"
-
-
-def _who(goal: MotionGoal) -> str:
-    action = goal.action
-    if isinstance(action, MoveTo) and action.arm is not None:
-        return f"the {action.arm} arm"
-    if isinstance(action, SlideMove):
-        return "the slide"
-    if isinstance(action, (Attach, Detach)):
-        return f"the {action.arm} arm"
-    return "the arms"
-
-
-def _whither(goal: MotionGoal) -> str:
-    action = goal.action
-    if isinstance(action, MoveTo):
-        target = action.target
-        return f"`{target.name}`" if isinstance(target, JointTarget) else f"`{target.family}`"
-    if isinstance(action, SlideMove):
-        return _mm(action.height_m)
-    return "its goal"
-
-
-def _mm(metres: float) -> str:
-    return f"{metres * 1000:.0f} mm"
 
 
 def _listed(parts: list[str], word: str) -> str:

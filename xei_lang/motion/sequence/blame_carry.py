@@ -61,6 +61,8 @@ def _counted(census: Census) -> tuple[str, ...]:
 
 
 def _blocked(failure: BlockedTransit) -> tuple[str, ...]:
+    if failure.blocked.bodies is None:
+        return ("no upright way there was found",)
     first, second = failure.blocked.bodies
     return (f"on the upright ways there that were tried, `{first}` meets `{second}`",)
 

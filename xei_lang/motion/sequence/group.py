@@ -8,14 +8,14 @@ result is the cheapest run whose motions all hold.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from xei_lang.ir.goals import MotionGoal
 from xei_lang.motion.paths.free import PathBlocked
-from xei_lang.motion.sequence.choose import Bools, Speeds, Stage, cheapest
+from xei_lang.motion.sequence.choose import Bools, cheapest
 from xei_lang.motion.sequence.context import Context
 from xei_lang.motion.sequence.enact import as_held, carry_out
 from xei_lang.motion.sequence.fixed import plan_fixed
@@ -23,6 +23,7 @@ from xei_lang.motion.sequence.layers import LEAN, THOROUGH, Effort, Layer, enume
 from xei_lang.motion.sequence.motions import Motion
 from xei_lang.motion.sequence.poses import same_grasp
 from xei_lang.motion.sequence.rehearse import Rehearsal, rehearse_group
+from xei_lang.motion.sequence.search import Search, avoid, stages_of, travel
 from xei_lang.motion.sequence.sections import Chain, Group
 from xei_lang.motion.sequence.snapshot import UNCHOSEN, Snapshot
 from xei_lang.motion.sequence.space import Touch, motion_contact, space_for, target_check
@@ -35,17 +36,13 @@ MAX_GLANCES = 6
 DETOUR_FACTOR = 1.3
 DETOUR_S = 0.5
 """What a way around something is taken to cost beside the straight way, where that is blocked."""
-BLOCKED_S = 1.0
-"""What is added to transits that are like one that found no path."""
-OTHER_BRANCH_S = 3.0
-"""What a change of branch is taken to cost where the hand must stay upright: it leads past a singular posture."""
 
 
 @dataclass(frozen=True, slots=True)
 class Ahead:
     """What comes after a group: the configuration (7,) of the arm that is named next, if one is, and the
-    chain of a later group in which the hand still holds what it took in this one: the grasp must serve there
-    too.
+    chains of later groups in which the hand still holds what it took in this one, up to where it lets go: the
+    grasp must serve in all of them.
     """
 
     configuration: Array | None = None
@@ -62,29 +59,18 @@ class Unplaced:
 
 @dataclass(frozen=True, slots=True)
 class BlockedTransit:
-    """Candidates hold at both ends, but no path between them was found."""
+    """Candidates hold at both ends, but no path between them was found: the last that was tried is told, from
+    `before` to the candidate `index` of its layer.
+    """
 
     goal: MotionGoal
     blocked: PathBlocked
+    before: Snapshot
+    layer: Layer
+    index: int
 
 
 Failure = Unplaced | BlockedTransit
-
-
-@dataclass(slots=True)
-class _Search:
-    """The state of one search: what still holds, and what has been found out."""
-
-    own: int
-    rehearsals: tuple[Rehearsal, ...]
-    layers: tuple[Layer, ...]
-    alive: list[Bools]
-    struck: list[list[Touch]]
-    transits: dict[tuple[int, ...], Motion | PathBlocked] = field(
-        default_factory=dict[tuple[int, ...], Motion | PathBlocked]
-    )
-    sound: set[tuple[int, int]] = field(default_factory=set[tuple[int, int]])
-    glanced: dict[int, set[tuple[int, int]]] = field(default_factory=dict[int, set[tuple[int, int]]])
 
 
 def plan_group(context: Context, group: Group, start: Snapshot, ahead: Ahead) -> tuple[Motion, ...] | Failure:
@@ -119,7 +105,7 @@ def _attempt(
         if len(layer) == 0:
             return Unplaced(rehearsal, ())
         layers.append(layer)
-    search = _Search(
+    search = Search(
         own,
         rehearsals,
         tuple(layers),
@@ -130,11 +116,11 @@ def _attempt(
 
 
 def _search(
-    context: Context, group: Group, search: _Search, start: Snapshot, ahead: Ahead
+    context: Context, group: Group, search: Search, start: Snapshot, ahead: Ahead
 ) -> tuple[Motion, ...] | Failure:
     now = start.q[context.arm_indices(group.arm)]
     speeds = context.speeds(context.arm_joints(group.arm))
-    transitions = _transitions(context, now, search, speeds)
+    transitions = travel(context, now, search, speeds)
     last = search.layers[search.own - 1]
     homeward = np.zeros(len(last))
     if ahead.configuration is not None:
@@ -143,63 +129,20 @@ def _search(
     failure: Failure | None = None
     blocked = 0
     while blocked <= MAX_BLOCKED_TRANSITS:
-        run = cheapest(_stages(now, search, homeward), transitions)
+        run = cheapest(stages_of(now, search, homeward), transitions)
         if run is None:
-            return failure or _unplaced(search)
+            return failure or _unplaced(search, transitions)
         if not _all_sound(context, search, run[1:]) or _dearer(context, search, run, transitions, now):
             continue
         result = _realise(context, group, search, run[1:], start)
         if not isinstance(result, _BlockedAt):
             return result
-        _avoid(search, result.stage, run, transitions[result.stage])
-        failure = BlockedTransit(search.rehearsals[result.stage].chain.head, result.blocked)
+        avoid(search, result.stage, run, transitions[result.stage])
+        layer, index = search.layers[result.stage], run[result.stage + 1]
+        failure = BlockedTransit(layer.chain.head, result.blocked, result.before, layer, index)
         blocked += 1
     assert failure is not None
     return failure
-
-
-def _stages(now: Array, search: _Search, homeward: Array) -> tuple[Stage, ...]:
-    first = Stage(now[None], now[None], np.zeros(1), np.ones(1, dtype=bool))
-    stages = [layer.stage(alive) for layer, alive in zip(search.layers, search.alive, strict=True)]
-    last = stages[search.own - 1]
-    stages[search.own - 1] = replace(last, cost=last.cost + homeward)
-    return (first, *stages)
-
-
-def _transitions(context: Context, now: Array, search: _Search, speeds: Speeds) -> tuple[Array, ...]:
-    """Travel times between the group's stages; into a chain that is only looked ahead to, whether it may
-    follow at all.
-    """
-    stages = _stages(now, search, np.zeros(1))
-    costs: list[Array] = []
-    for index, mask in enumerate((None, *_joined(search))):
-        before, after = stages[index], stages[index + 1]
-        if index < search.own:
-            cost = speeds.travel_s(before.exit, after.entry) + _branch_s(context, now, search, index)
-        else:
-            cost = np.zeros((len(before.cost), len(after.cost)))
-        costs.append(cost if mask is None else np.where(mask, cost, np.inf))
-    return tuple(costs)
-
-
-def _branch_s(context: Context, now: Array, search: _Search, stage: int) -> Array:
-    """What the change of branch into each candidate of a stage adds, where the hand must stay upright."""
-    rehearsal, after = search.rehearsals[stage], search.layers[stage].branch
-    if not keeps_upright(rehearsal):
-        return np.zeros((1, len(after)))
-    solver = context.solvers[rehearsal.chain.arm]
-    before = search.layers[stage - 1].branch if stage else np.array([solver.describe(now[1:])[1]])
-    return OTHER_BRANCH_S * (before[:, None] != after[None, :])
-
-
-def _avoid(search: _Search, stage: int, run: tuple[int, ...], costs: Array) -> None:
-    """Strike a transit that found no path out, and make those like it dear: same grasps, branches and slide
-    heights.
-    """
-    pair = run[stage], run[stage + 1]
-    first = search.layers[stage - 1].like(pair[0]) if stage else np.ones(1, dtype=bool)
-    costs[np.ix_(first, search.layers[stage].like(pair[1]))] += BLOCKED_S
-    costs[pair] = np.inf
 
 
 def _allowed(rehearsal: Rehearsal) -> Bools:
@@ -210,23 +153,7 @@ def _allowed(rehearsal: Rehearsal) -> Bools:
     return same_grasp(chain.family, held.member, chain.turns)
 
 
-def _joined(search: _Search) -> tuple[Bools | None, ...]:
-    """Which candidate may follow which: while an object is held, only those of the same grasp."""
-    masks: list[Bools | None] = []
-    for before, after, rehearsal in zip(
-        search.layers, search.layers[1:], search.rehearsals[1:], strict=False
-    ):
-        chain = rehearsal.chain
-        if chain.arm not in rehearsal.before.held:
-            masks.append(None)
-        elif chain.turns:
-            masks.append(before.orbit[:, None] == after.orbit[None, :])
-        else:
-            masks.append(before.member[:, None] == after.member[None, :])
-    return tuple(masks)
-
-
-def _all_sound(context: Context, search: _Search, chosen: tuple[int, ...]) -> bool:
+def _all_sound(context: Context, search: Search, chosen: tuple[int, ...]) -> bool:
     """Check the linear motions of every chosen candidate; strike out those that touch something."""
     good = True
     for stage, (rehearsal, layer, index) in enumerate(
@@ -245,7 +172,7 @@ def _all_sound(context: Context, search: _Search, chosen: tuple[int, ...]) -> bo
 
 
 def _dearer(
-    context: Context, search: _Search, run: tuple[int, ...], transitions: tuple[Array, ...], now: Array
+    context: Context, search: Search, run: tuple[int, ...], transitions: tuple[Array, ...], now: Array
 ) -> bool:
     """Glance at the straight lines of a run that were not looked at before; where one is blocked, its cost
     goes up.
@@ -284,10 +211,11 @@ def _first_touch(context: Context, rehearsal: Rehearsal, layer: Layer, index: in
 class _BlockedAt:
     stage: int
     blocked: PathBlocked
+    before: Snapshot
 
 
 def _realise(
-    context: Context, group: Group, search: _Search, chosen: tuple[int, ...], start: Snapshot
+    context: Context, group: Group, search: Search, chosen: tuple[int, ...], start: Snapshot
 ) -> tuple[Motion, ...] | _BlockedAt:
     """The motions of a chosen run, transits planned; or the first transit that found no path."""
     now = start
@@ -305,7 +233,7 @@ def _realise(
         transit = search.transits.get(prefix) or plan_transit(context, layer, index, now)
         search.transits[prefix] = transit
         if isinstance(transit, PathBlocked):
-            return _BlockedAt(stage, transit)
+            return _BlockedAt(stage, transit, now)
         rest = carry_out(context, layer, index, transit.after)
         assert rest is not None
         motions.extend((transit, *rest))
@@ -314,8 +242,11 @@ def _realise(
     return tuple(motions)
 
 
-def _unplaced(search: _Search) -> Unplaced:
-    """The first chain that has nothing left, or else the one that lost most."""
-    empty = [stage for stage, alive in enumerate(search.alive) if not alive.any()]
-    stage = empty[0] if empty else max(range(len(search.layers)), key=lambda k: len(search.struck[k]))
-    return Unplaced(search.rehearsals[stage], tuple(search.struck[stage]))
+def _unplaced(search: Search, transitions: tuple[Array, ...]) -> Unplaced:
+    """The first chain that no run of candidates reaches."""
+    reached, failed = np.ones(1, dtype=bool), 0
+    for stage, (cost, alive) in enumerate(zip(transitions, search.alive, strict=True)):
+        reached, failed = np.isfinite(cost[reached]).any(axis=0) & alive, stage
+        if not reached.any():
+            break
+    return Unplaced(search.rehearsals[failed], tuple(search.struck[failed]))

@@ -21,7 +21,6 @@ Array = NDArray[np.float64]
 
 _TILT_SAMPLES = 24
 _MAX_CHECKS = 2_000
-TILTED = ("held object", "its upright bound")
 
 
 def keeps_upright(rehearsal: Rehearsal) -> bool:
@@ -30,13 +29,18 @@ def keeps_upright(rehearsal: Rehearsal) -> bool:
     return isinstance(move, MoveTo) and move.keep_upright and rehearsal.chain.arm in rehearsal.before.held
 
 
-def plan_transit(context: Context, layer: Layer, index: int, before: Snapshot) -> Motion | PathBlocked:
-    """The free move to a candidate's first target; the slide takes part where its height changes."""
+def plan_transit(
+    context: Context, layer: Layer, index: int, before: Snapshot, upright: bool = True
+) -> Motion | PathBlocked:
+    """The free move to a candidate's first target; the slide takes part where its height changes.
+
+    Without `upright`, what the goal asks to keep upright may tilt as it likes: only messages ask for that.
+    """
     chain, goal = layer.chain, layer.chain.head
     assert isinstance(goal.action, MoveTo)
     q_goal = layer.q[index, 0]
-    upright = goal.action.keep_upright and chain.arm in before.held
-    found = _upright(context, chain, before, q_goal) if upright else _free(context, chain, before, q_goal)
+    keep = upright and goal.action.keep_upright and chain.arm in before.held
+    found = _upright(context, chain, before, q_goal) if keep else _free(context, chain, before, q_goal)
     if isinstance(found, PathBlocked):
         return found
     after = before.moved(context.lift(before.q, chain.arm, q_goal))
@@ -44,6 +48,15 @@ def plan_transit(context: Context, layer: Layer, index: int, before: Snapshot) -
         goal, before, after, found.path, found.planner, speed_fraction=goal.action.speed_fraction,
         arm=chain.arm, choice=choice_name(layer, index, before),
     )  # fmt: skip
+
+
+def worst_tilt(context: Context, motion: Motion) -> float:
+    """The largest tilt along a transit of what its arm holds, rad."""
+    assert motion.path is not None
+    assert motion.arm is not None
+    path = motion.path
+    q = path.evaluate(np.linspace(0.0, path.length, _TILT_SAMPLES), 0)
+    return tilt(context, motion.before, motion.arm, path.joints, q)
 
 
 def _free(context: Context, chain: Chain, before: Snapshot, q_goal: Array) -> FreePath | PathBlocked:
@@ -76,4 +89,4 @@ def _upright(context: Context, chain: Chain, before: Snapshot, q_goal: Array) ->
     q = path.evaluate(np.linspace(0.0, path.length, _TILT_SAMPLES), 0)
     if tilt(context, before, chain.arm, path.joints, q) <= bound:
         return plain
-    return found or PathBlocked("between", TILTED)
+    return found or PathBlocked("between", None)

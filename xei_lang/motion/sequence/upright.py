@@ -81,9 +81,9 @@ class UprightSpace:
         return not self.arm.any_contact(found)
 
     def contact(self, q: Array) -> Pair | None:
-        """See `FreeSpace`."""
+        """See `FreeSpace`. A state that no configuration reaches touches nothing."""
         found, valid = self.configurations(q[None])
-        return self.arm.contact(found[0]) if valid[0] else ("held object", "reach of the arm")
+        return self.arm.contact(found[0]) if valid[0] else None
 
     def configurations(self, states: Array) -> tuple[Array, Bools]:
         """Slide and arm (m, 8) of states (m, 6), and which of them exist."""
