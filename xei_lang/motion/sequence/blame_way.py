@@ -84,7 +84,7 @@ def _help(context: Context, bodies: tuple[str, ...], before: Snapshot, again: Ag
         if item is not None and name in before.standing:
             standing = {other: pose for other, pose in before.standing.items() if other != name}
             if isinstance(again(replace(before, standing=standing)), Motion):
-                what = "move it away" if item.movable else "check where the usage profile says it stands"
+                mend = "move it away" if item.movable else "check where the usage profile says it stands"
                 found.append(f"without `{name}` there is a way: {mend} first")
     for side, arm in context.robot.arms.items():
         if any(name.startswith(f"openarm_{side}") for name in bodies) and side not in before.held:
