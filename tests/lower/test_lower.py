@@ -209,12 +209,12 @@ def test_a_drive_starts_an_epoch_and_carries_what_is_held() -> None:
         )
     )
     kinds = [item.kind for item in graph.goals if item.step_id == "nav_to#1"]
-    assert kinds == ["move_to", "nav_to_pose", "perceive", "slide_move", "move_to"]
-    drive = goal(graph, "nav_to#1/2")
+    assert kinds == ["move_to", "move_to", "nav_to_pose", "perceive", "slide_move", "move_to"]
+    drive = goal(graph, "nav_to#1/3")
     assert isinstance(drive.action, NavToPose)
     assert drive.epoch == 0
     assert [item.epoch for item in graph.goals if item.step_id == "place#1"] == [1] * 5
-    assert not goal(graph, "nav_to#1/3").provisional
+    assert not goal(graph, "nav_to#1/4").provisional
     assert all(item.provisional for item in graph.goals if item.step_id in ("place#1", "pick#2"))
     profile, world = bench()
     T_base_beaker = graph.epochs[1].T_world_base.inverse() @ world.T_world_object("beaker_2")
