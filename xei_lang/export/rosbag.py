@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 import re
-from bisect import bisect_right
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -19,6 +18,7 @@ import numpy as np
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
+from xei_lang.export.resample import states_at
 from xei_lang.ir.timed import Samples, TimedGoal, TimedPlan
 
 START_NS = 1_577_836_800 * 10**9
@@ -29,6 +29,8 @@ BAG_VERSION = 8
 
 _ARM = re.compile(r"openarm_(left|right)_joint[1-7]")
 _FINGER = re.compile(r"openarm_(left|right)_finger_joint1")
+
+_NOTHING = np.zeros(0)
 
 Message = tuple[int, str, str, Any]
 """Time stamp in ns, topic, message type, message."""
@@ -76,78 +78,37 @@ def _trajectories(store: Any, goal: TimedGoal) -> Iterator[Message]:
         message = store.types[kind](
             header=_header(store, goal.start_s),
             joint_names=[goal.joints[column] for column in chosen],
-            points=[_point(store, goal, index, chosen) for index in range(len(goal.samples.times_s))],
+            points=_points(store, goal.samples, goal.start_s, chosen),
         )
         yield _stamp_ns(goal.start_s), f"/{name}/joint_trajectory", kind, message
 
 
-def _point(store: Any, goal: TimedGoal, index: int, columns: list[int]) -> Any:
-    samples = goal.samples
-    assert samples is not None
-    ns = round((samples.times_s[index] - goal.start_s) * 1e9)
+def _points(store: Any, samples: Samples, start_s: float, columns: list[int]) -> list[Any]:
+    point = store.types["trajectory_msgs/msg/JointTrajectoryPoint"]
     duration = store.types["builtin_interfaces/msg/Duration"]
-    return store.types["trajectory_msgs/msg/JointTrajectoryPoint"](
-        positions=_row(samples.positions[index], columns),
-        velocities=_row(samples.velocities[index], columns),
-        accelerations=_row(samples.accelerations[index], columns),
-        effort=np.zeros(0),
-        time_from_start=duration(sec=ns // 10**9, nanosec=ns % 10**9),
-    )
-
-
-def _row(values: tuple[float, ...], columns: list[int]) -> Any:
-    return np.array([values[column] for column in columns], dtype=np.float64)
+    parts = (samples.positions, samples.velocities, samples.accelerations)
+    rows = zip(samples.times_s, *(np.take(part, columns, axis=1) for part in parts), strict=True)
+    points: list[Any] = []
+    for t, position, velocity, acceleration in rows:
+        sec, nanosec = divmod(round((t - start_s) * 1e9), 10**9)
+        since = duration(sec=sec, nanosec=nanosec)
+        points.append(point(position, velocity, acceleration, _NOTHING, since))
+    return points
 
 
 def _joint_states(store: Any, timed: TimedPlan) -> Iterator[Message]:
     kind = "sensor_msgs/msg/JointState"
-    start, motions = dict(timed.start), _motions(timed)
-    for tick in range(math.ceil(timed.duration_s * RATE_HZ - 1e-9) + 1):
-        t = min(tick / RATE_HZ, timed.duration_s)
-        states = [_at(motions.get(joint, []), t, position) for joint, position in start.items()]
-        message = store.types[kind](
-            header=_header(store, t),
-            name=list(start),
-            position=np.array([position for position, _ in states], dtype=np.float64),
-            velocity=np.array([velocity for _, velocity in states], dtype=np.float64),
-            effort=np.zeros(0),
+    message, names = store.types[kind], [joint for joint, _ in timed.start]
+    ticks = np.arange(math.ceil(timed.duration_s * RATE_HZ - 1e-9) + 1)
+    times_s = np.minimum(ticks / RATE_HZ, timed.duration_s)
+    positions, velocities = states_at(timed, times_s)
+    for t, position, velocity in zip(times_s.tolist(), positions, velocities, strict=True):
+        yield (
+            _stamp_ns(t),
+            "/joint_states",
+            kind,
+            message(_header(store, t), names, position, velocity, _NOTHING),
         )
-        yield _stamp_ns(t), "/joint_states", kind, message
-
-
-def _motions(timed: TimedPlan) -> dict[str, list[tuple[Samples, int]]]:
-    """For each joint its trajectories in time, each with the joint's column."""
-    motions: dict[str, list[tuple[Samples, int]]] = {}
-    for goal in timed.goals:
-        if goal.samples is not None:
-            for column, joint in enumerate(goal.joints):
-                motions.setdefault(joint, []).append((goal.samples, column))
-    for parts in motions.values():
-        parts.sort(key=lambda part: part[0].times_s[0])
-    return motions
-
-
-def _at(motions: list[tuple[Samples, int]], t: float, start: float) -> tuple[float, float]:
-    """Position and velocity of a joint: exact at samples, cubic between two, at rest between goals."""
-    latest = None
-    for samples, column in motions:
-        if samples.times_s[0] > t:
-            break
-        latest = samples, column
-    if latest is None:
-        return start, 0.0
-    samples, column = latest
-    index = bisect_right(samples.times_s, t) - 1
-    p0, v0 = samples.positions[index][column], samples.velocities[index][column]
-    if t == samples.times_s[index]:
-        return p0, v0
-    if index + 1 == len(samples.times_s):
-        return p0, 0.0
-    dt = samples.times_s[index + 1] - samples.times_s[index]
-    u = (t - samples.times_s[index]) / dt
-    p1, v1 = samples.positions[index + 1][column], samples.velocities[index + 1][column]
-    a, b = 3 * (p1 - p0) - dt * (2 * v0 + v1), 2 * (p0 - p1) + dt * (v0 + v1)
-    return p0 + u * (dt * v0 + u * (a + u * b)), v0 + (2 * a + 3 * b * u) * u / dt
 
 
 def _header(store: Any, t_s: float) -> Any:

@@ -7,10 +7,13 @@ shortest text that reads back as the same number; what JSON has no word for (NaN
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Mapping, Sequence
+from typing import cast
 
 Json = Mapping[str, "Json"] | Sequence["Json"] | str | int | float | bool | None
 
+_ENCODER = json.JSONEncoder(ensure_ascii=False, allow_nan=False)
 _SCALARS = (str, int, float, bool, type(None))
 
 
@@ -33,11 +36,13 @@ def line(value: Json) -> str:
 
 
 def _flat(value: Json) -> str:
-    return json.dumps(value, ensure_ascii=False, allow_nan=False)
+    return _ENCODER.encode(value)
 
 
 def _write(value: Json, newline: str, parts: list[str]) -> None:
-    if isinstance(value, Mapping):
+    if _is_row(value):
+        parts.append(repr(value))
+    elif isinstance(value, Mapping):
         _need_text_keys(value)
         if all(isinstance(item, _SCALARS) for item in value.values()):
             parts.append(_flat(dict(value)))
@@ -51,6 +56,13 @@ def _write(value: Json, newline: str, parts: list[str]) -> None:
         parts.append(newline + "]")
     else:
         parts.append(_flat(value))
+
+
+def _is_row(value: Json) -> bool:
+    """Whether this is a list of finite floats, as trajectories have many: Python writes it as JSON does."""
+    if not isinstance(value, list):
+        return False
+    return set(map(type, value)) == {float} and all(map(math.isfinite, cast("list[float]", value)))
 
 
 def _write_items(value: Mapping[str, Json], newline: str, parts: list[str]) -> None:
