@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -55,6 +56,7 @@ def command(*, paths: tuple[Path, ...], form: str, options: Options) -> None:  #
         )
         if not options.quiet:
             click.echo(_summary(said, len(files)), err=True)
+    gc.freeze()  # the process ends here: what it holds goes with it, unsearched
     sys.exit(exit_code(said))
 
 

@@ -48,8 +48,8 @@ def main() -> None:
 
 def run(argv: list[str] | None = None) -> None:
     """Entry point of the console script. Never shows a traceback for something that the user did."""
-    # What a start makes (classes, tables, a tree) it keeps: to search it for cycles as it grows, and once
-    # more at the end, is an eighth of a small check. The search begins where there is more than that.
+    # What a start makes (classes, tables, a tree) it keeps: to search it for cycles again and again is
+    # a tenth of a small check. The search begins where there is more than that.
     gc.set_threshold(200_000)
     try:
         main.main(args=argv, prog_name="xei", standalone_mode=False)
@@ -68,8 +68,6 @@ def run(argv: list[str] | None = None) -> None:
     except Exception as bug:
         _report_bug(bug)
         sys.exit(OUR_BUG)
-    finally:
-        gc.freeze()
 
 
 def _report_bug(bug: Exception) -> None:
