@@ -1,6 +1,6 @@
 """How long parsing takes, beside CPython's parser on as many lines of Python.
 
-python tests/bench/bench_parse.py [--lines 10000] [--rounds 5]
+python tests/bench/bench_parse.py [--lines 10000] [--rounds 5] [--small]
 """
 
 from __future__ import annotations
@@ -53,7 +53,10 @@ def main() -> int:
     options = argparse.ArgumentParser(description="Times the parser beside CPython's own.")
     options.add_argument("--lines", type=int, default=10_000)
     options.add_argument("--rounds", type=int, default=5)
+    options.add_argument("--small", action="store_true", help="200 lines, once: it still runs")
     given = options.parse_args()
+    if given.small:
+        given.lines, given.rounds = 200, 1
     blocks = range(max(1, given.lines // XEI.count("\n")))
     protocol = "protocol p {\n" + "".join(XEI.format(i=i) for i in blocks) + "}\n"
     python = "def p():\n" + "".join(PYTHON.format(i=i) for i in blocks)
