@@ -73,6 +73,12 @@ def test_a_hand_that_holds_something_goes_to_its_carry_pose_upright() -> None:
     assert named(back) == ("ready", {"right"})
 
 
+def test_on_arrival_the_slide_stays_and_with_it_what_is_carried() -> None:
+    graph = lowered(plan(pick("tube_1", "left"), drive()))
+    kinds = [goal.kind for goal in graph.goals if goal.step_id == "nav_to#1"]
+    assert kinds == ["move_to", "move_to", "nav_to_pose", "perceive", "move_to"]
+
+
 def test_the_carry_pose_says_why_and_where_it_is_written() -> None:
     profile, _ = bench()
     (goal, _), *_ = moves(lowered(plan(pick("tube_1", "right"), drive())), "nav_to#1")

@@ -209,7 +209,7 @@ def test_a_drive_starts_an_epoch_and_carries_what_is_held() -> None:
         )
     )
     kinds = [item.kind for item in graph.goals if item.step_id == "nav_to#1"]
-    assert kinds == ["move_to", "move_to", "nav_to_pose", "perceive", "slide_move", "move_to"]
+    assert kinds == ["move_to", "move_to", "nav_to_pose", "perceive", "move_to"]
     drive = goal(graph, "nav_to#1/3")
     assert isinstance(drive.action, NavToPose)
     assert drive.epoch == 0

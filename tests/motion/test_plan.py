@@ -49,9 +49,9 @@ def goal(timed: TimedPlan, goal_id: str) -> TimedGoal:
     return next(item for item in timed.goals if item.id == goal_id)
 
 
-def findings(timed: TimedPlan, steps: SkillPlan, world: World, upright: bool = True) -> list[str]:
+def findings(timed: TimedPlan, steps: SkillPlan, world: World) -> list[str]:
     profile, _ = bench()
-    tilt = profile.calibration.spill_tilt_rad if upright else None
+    tilt = profile.calibration.spill_tilt_rad
     report = verify_timed(
         timed, goals(steps, profile, world), world, RobotDescription(URDF, SRDF),
         profile.calibration.limits, options=VerifyOptions(upright_tilt_rad=tilt),
@@ -128,8 +128,7 @@ def test_a_grasp_is_chosen_that_also_serves_at_the_other_station() -> None:
     )
     timed, problems = planned(steps, profile, world)
     assert timed is not None, problems
-    # The transport pose does not keep a beaker upright yet: only the arms' own moves do.
-    assert findings(timed, steps, world, upright=False) == []
+    assert findings(timed, steps, world) == []
     drive = next(item for item in timed.goals if item.kind == "nav_to_pose")
     assert drive.end_s - drive.start_s == pytest.approx(2.2 / 0.3 + math.pi / 2 / 0.65)
 

@@ -37,11 +37,12 @@ def arrival(
     scene: Scene, profile: Profile, station: SceneOrigin, template: tuple[TemplateStep, ...]
 ) -> tuple[Draft, ...]:
     """The motion after a drive: the slide, then the arms whose hands are empty, as far as the skill's own
-    template does not say otherwise.
+    template does not say otherwise. While a hand holds something the slide stays, and with it the carry pose.
     """
     kinds = [line.kind for line in template]
     after = kinds[kinds.index("nav_to_pose") + 1 :]
-    drafts = (_slide(scene, station), *_arms_ready(scene, profile, station))
+    slide = () if scene.held else (_slide(scene, station),)
+    drafts = (*slide, *_arms_ready(scene, profile, station))
     return tuple(draft for draft in drafts if draft.kind not in after)
 
 
