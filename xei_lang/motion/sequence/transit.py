@@ -16,6 +16,7 @@ from xei_lang.motion.sequence.sections import Chain
 from xei_lang.motion.sequence.snapshot import Snapshot
 from xei_lang.motion.sequence.space import space_for
 from xei_lang.motion.sequence.upright import plan_upright, tilt
+from xei_lang.motion.sequence.upright_joints import plan_upright_joints
 
 Array = NDArray[np.float64]
 
@@ -68,25 +69,10 @@ def _free(context: Context, chain: Chain, before: Snapshot, q_goal: Array) -> Fr
 
 
 def _upright(context: Context, chain: Chain, before: Snapshot, q_goal: Array) -> FreePath | PathBlocked:
-    """A free move that keeps the held object's tilt within the bound: over tool poses, or else a joint path
-    that happens to.
-
-    What is already tilted more than the bound (by a named configuration) cannot be kept upright and moves
-    freely.
-    """
-    goal, bound = chain.head, context.profile.calibration.spill_tilt_rad
-    joints, columns = context.arm_joints(chain.arm), context.arm_indices(chain.arm)
-    if tilt(context, before, chain.arm, joints, before.q[None, columns]) > bound:
-        return _free(context, chain, before, q_goal)
-    seed = context.goal_seed(goal.id)
+    """A free move that keeps the held object within the tilt bound: over tool poses, or else over joints."""
+    goal, seed = chain.head, context.goal_seed(chain.head.id)
     found = plan_upright(context, chain.arm, before, q_goal, goal.allowed_contacts, seed)
-    if isinstance(found, FreePath):
+    if isinstance(found, FreePath) or (found is not None and found.where != "between"):
         return found
-    plain = _free(context, chain, before, q_goal)
-    if isinstance(plain, PathBlocked):
-        return plain
-    path = plain.path
-    q = path.evaluate(np.linspace(0.0, path.length, _TILT_SAMPLES), 0)
-    if tilt(context, before, chain.arm, path.joints, q) <= bound:
-        return plain
-    return found or PathBlocked("between", None)
+    way = plan_upright_joints(context, chain.arm, before, q_goal, goal.allowed_contacts, seed)
+    return way or found or PathBlocked("between", None)
