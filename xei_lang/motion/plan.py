@@ -45,6 +45,14 @@ class RobotDescription:
     srdf_text: str
 
 
+@dataclass(frozen=True, slots=True)
+class Refused:
+    """A graph that cannot be planned: why, and at which of its goals."""
+
+    diagnostic: Diagnostic
+    goal: int
+
+
 def plan_motion(
     graph: MotionGoalGraph,
     world: World,
@@ -58,28 +66,47 @@ def plan_motion(
     Returns the plan, or None and what stands in its way, with the goal's place in the protocol. Equal
     arguments give equal plans, to the byte.
     """
+    found = attempt(graph, world, profile, description, seed, progress)
+    return (None, (found.diagnostic,)) if isinstance(found, Refused) else (found, ())
+
+
+def attempt(
+    graph: MotionGoalGraph,
+    world: World,
+    profile: Profile,
+    description: RobotDescription,
+    seed: int,
+    progress: Progress | None = None,
+) -> TimedPlan | Refused:
+    """`plan_motion`, with the goal at which it failed."""
     context = _context(world, profile, description, seed)
     parts = split(graph)
     start = first_snapshot(context.robot, world)
     problem = refuse(context, graph)
     if problem is not None:
-        return None, (problem,)
+        return _refused(graph, problem, 0)
     now, timed = start, list[TimedGoal]()
     loads: list[Motion] = []
     for index, part in enumerate(parts):
         motions = _plan_part(context, part, parts[index + 1 :], now)
         if isinstance(motions, Diagnostic):
-            return None, (motions,)
+            return _refused(graph, motions, len(timed))
         for motion in motions:
             goal = time_motion(context, motion, timed[-1].end_s if timed else 0.0)
             if isinstance(goal, Untimed):
-                return None, (blame_timing(context, goal),)
+                return _refused(graph, blame_timing(context, goal), len(timed))
             timed.append(goal)
             loads.append(motion)
         now = motions[-1].after
         if progress is not None:
             progress(len(timed), len(graph.goals))
-    return _plan(context, start, tuple(loads), tuple(timed)), ()
+    return _plan(context, start, tuple(loads), tuple(timed))
+
+
+def _refused(graph: MotionGoalGraph, diagnostic: Diagnostic, planned: int) -> Refused:
+    """The refusal, at the first goal of its words among those that were not planned yet."""
+    later = range(planned, len(graph.goals))
+    return Refused(diagnostic, next((i for i in later if graph.goals[i].span == diagnostic.span), planned))
 
 
 def _context(world: World, profile: Profile, description: RobotDescription, seed: int) -> Context:
@@ -102,7 +129,7 @@ def _plan_part(
     found = plan_group(context, part, now, look_ahead(context, part, later, now))
     if isinstance(found, tuple):
         return found
-    return blame_carry(context, part, found) or blame_group(context, found)
+    return blame_carry(context, found) or blame_group(context, found)
 
 
 def _plan(

@@ -7,46 +7,46 @@ from __future__ import annotations
 import math
 
 from xei_lang.diagnostics import Diagnostic, Label
-from xei_lang.ir.goals import MotionGoal
-from xei_lang.motion.sequence.census import Census, take_census
+from xei_lang.motion.sequence.blame_way import blame_transit
+from xei_lang.motion.sequence.census import take_census
 from xei_lang.motion.sequence.context import Context
-from xei_lang.motion.sequence.group import BlockedTransit, Failure, Unplaced
+from xei_lang.motion.sequence.group import Failure, Unplaced
 from xei_lang.motion.sequence.rehearse import rehearse
-from xei_lang.motion.sequence.sections import Chain, Group
+from xei_lang.motion.sequence.sections import Group
 from xei_lang.motion.sequence.snapshot import Snapshot
 from xei_lang.motion.sequence.transit import keeps_upright
 from xei_lang.motion.sequence.upright import tilt
 
 
-def blame_carry(context: Context, group: Group, failure: Failure) -> Diagnostic | None:
-    """What keeps a held object from its carry pose, where the group or what it looks ahead to carries; None
-    where another move failed.
-    """
-    chain = failure.rehearsal.chain if isinstance(failure, Unplaced) else _chain_of(group, failure.goal)
+def blame_carry(context: Context, failure: Failure) -> Diagnostic | None:
+    """What keeps a held object from its carry pose; None where another move failed."""
+    chain = (failure.rehearsal if isinstance(failure, Unplaced) else failure.layer).chain
     pose = next((item for item in chain.head.parameters if item.name == "carry_pose"), None)
     if pose is None:
         return None
     thing = chain.family.reference
-    notes = _counted(take_census(context, failure)) if isinstance(failure, Unplaced) else _blocked(failure)
     return Diagnostic(
         "XEI0808",
         f"the {chain.arm} arm cannot bring `{thing}` to its carry pose",
         chain.head.span,
         f"`{thing}` would be in the {chain.arm} hand here",
         (Label(pose.span, f"carry pose of the {chain.arm} arm"),) if pose.span is not None else (),
-        notes=(*notes, "what a hand holds is carried upright: a named configuration would tilt it"),
+        notes=(
+            *_counted(context, failure),
+            "what a hand holds is carried upright: a named configuration would tilt it",
+        ),
         help=(
-            f"set `{thing}` down before this step, pick it with the other arm,"
+            f"set `{thing}` down before this step,"
             f" or state another place under `carry: {chain.arm}:` in the calibration profile",
         ),
     )
 
 
-def _chain_of(group: Group, head: MotionGoal) -> Chain:
-    return next(chain for chain in group.chains if chain.head == head)
-
-
-def _counted(census: Census) -> tuple[str, ...]:
+def _counted(context: Context, failure: Failure) -> tuple[str, ...]:
+    """Why each grasp fell, or what is met on the way of those that did not."""
+    if not isinstance(failure, Unplaced):
+        return blame_transit(context, failure).notes
+    census = take_census(context, failure)
     counts = [
         f"{count} {what}"
         for count, what in (
@@ -58,13 +58,6 @@ def _counted(census: Census) -> tuple[str, ...]:
     ]
     told = f": {', '.join(counts)}" if counts else ", though each chain by itself has some"
     return (f"of {census.total} grasps none serves where it is picked, carried and set down{told}",)
-
-
-def _blocked(failure: BlockedTransit) -> tuple[str, ...]:
-    if failure.blocked.bodies is None:
-        return ("no upright way there was found",)
-    first, second = failure.blocked.bodies
-    return (f"on the upright ways there that were tried, `{first}` meets `{second}`",)
 
 
 def refuse_tilted(context: Context, group: Group, now: Snapshot) -> Diagnostic | None:
