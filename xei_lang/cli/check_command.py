@@ -23,7 +23,7 @@ from xei_lang.syntax.reading import read_source
 @click.option(
     "--format",
     "form",
-    type=click.Choice(["full", "json"]),
+    type=click.Choice(["full", "concise", "json", "sarif", "github", "junit"]),
     default="full",
     show_default=True,
     help="How to print what was found.",
@@ -37,17 +37,18 @@ def command(*, paths: tuple[Path, ...], form: str, options: Options) -> None:  #
     Example: xei check protocols/
     """
     files = _files(paths)
-    said: Diagnostics = ()
+    checked: list[tuple[str, Diagnostics]] = []
     sources: dict[str, Source] = {}
     for file in files:
-        source, problems = read_source(file, str(file))
-        said = (*said, *problems)
+        source, found = read_source(file, str(file))
         if source is not None:
             sources[source.file] = source
             request = replace(request_for(source, options, allow_unmapped=True), open_bindings=True)
-            said = (*said, *compile_request(request, FRONT).diagnostics)
-    if form == "json":
-        _print_json(said, sources, len(files))
+            found = (*found, *compile_request(request, FRONT).diagnostics)
+        checked.append((str(file), found))
+    said = tuple(diagnostic for _, found in checked for diagnostic in found)
+    if form != "full":
+        _print(form, checked, sources)
     else:
         show(
             tuple(item for item in said if not options.quiet or item.severity == "error"),
@@ -71,16 +72,18 @@ def _files(paths: tuple[Path, ...]) -> list[Path]:
     return list(dict.fromkeys(found))
 
 
-def _print_json(said: Diagnostics, sources: dict[str, Source], files: int) -> None:
-    from xei_lang.diagnostics.render.json import render_json
+def _print(form: str, checked: list[tuple[str, Diagnostics]], sources: dict[str, Source]) -> None:
+    from xei_lang.cli.check_forms import render
 
-    click.echo(render_json(said, with_quoted(said, sources), files), nl=False)
+    said = tuple(diagnostic for _, found in checked for diagnostic in found)
+    click.echo(render(form, checked, with_quoted(said, sources)), nl=False)
 
 
 def _summary(said: Diagnostics, files: int) -> str:
     errors = sum(diagnostic.severity == "error" for diagnostic in said)
     warnings = sum(diagnostic.severity == "warning" for diagnostic in said)
-    return f"{_count(files, 'file')} checked: {_count(errors, 'error')}, {_count(warnings, 'warning')}"
+    counts = f"{_count(files, 'file')} checked: {_count(errors, 'error')}, {_count(warnings, 'warning')}"
+    return f"{counts}; `xei explain {said[0].code}` says more" if said else counts
 
 
 def _count(number: int, noun: str) -> str:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
-from xei_lang.diagnostics.diagnostic import Diagnostic, Diagnostics
+from xei_lang.diagnostics.diagnostic import Diagnostic, Diagnostics, Fix
+from xei_lang.diagnostics.render.json_text import json_text
+from xei_lang.diagnostics.render.region import region_of
 from xei_lang.diagnostics.span import Sources, Span
 
 
@@ -25,11 +26,10 @@ def render_json(diagnostics: Diagnostics, sources: Sources, files: int) -> str:
             "warnings": severities.count("warning"),
         },
     }
-    return json.dumps(report, indent=2, ensure_ascii=False) + "\n"
+    return json_text(report)
 
 
 def _diagnostic(diagnostic: Diagnostic, sources: Sources) -> dict[str, Any]:
-    fix = diagnostic.fix
     return {
         "code": diagnostic.code,
         "severity": diagnostic.severity,
@@ -38,32 +38,30 @@ def _diagnostic(diagnostic: Diagnostic, sources: Sources) -> dict[str, Any]:
         "labels": [{**_place(label.span, sources), "message": label.message} for label in diagnostic.labels],
         "notes": list(diagnostic.notes),
         "help": list(diagnostic.help),
-        "fix": None
-        if fix is None
-        else {
-            "applicability": fix.applicability,
-            "edits": [{**_bytes(edit.span, sources), "text": edit.text} for edit in fix.edits],
-        },
+        "fix": _fix(diagnostic.fix, sources),
     }
 
 
 def _place(span: Span | None, sources: Sources) -> dict[str, Any]:
-    source = None if span is None else sources.get(span.file)
-    if span is None or source is None:
-        file = None if span is None else span.file
-        return {"file": file, "line": None, "column": None, "end_line": None, "end_column": None}
-    start, end = source.position(span.start), source.position(span.end)
+    region = region_of(span, sources)
     return {
-        "file": span.file,
-        "line": start.line,
-        "column": start.column,
-        "end_line": end.line,
-        "end_column": end.column,
+        "file": None if span is None else span.file,
+        "line": None if region is None else region.line,
+        "column": None if region is None else region.column,
+        "end_line": None if region is None else region.end_line,
+        "end_column": None if region is None else region.end_column,
     }
 
 
+def _fix(fix: Fix | None, sources: Sources) -> dict[str, Any] | None:
+    """A fix with its places in bytes; none where a file of it is not among the sources."""
+    if fix is None or any(edit.span.file not in sources for edit in fix.edits):
+        return None
+    edits = [{**_bytes(edit.span, sources), "text": edit.text} for edit in fix.edits]
+    return {"applicability": fix.applicability, "edits": edits}
+
+
 def _bytes(span: Span, sources: Sources) -> dict[str, Any]:
-    """An edit's place in bytes; the file of an edit is always among the sources, for its text was read."""
     source = sources[span.file]
     start, end = source.position(span.start).byte, source.position(span.end).byte
     return {"file": span.file, "start": start, "end": end}
