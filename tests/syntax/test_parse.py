@@ -182,4 +182,5 @@ def test_expressions(text: str) -> None:
 
 
 def test_update_is_no_statement() -> None:
-    assert parse_module(Source("t.xei", corpus.in_protocol("cap(x) := open")))[0] is None
+    _, (found,) = parse_module(Source("t.xei", corpus.in_protocol("cap(x) := open")))
+    assert found.code == "XEI0104"

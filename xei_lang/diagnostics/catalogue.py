@@ -31,6 +31,7 @@ _ENTRIES = {
     "XEI0106": Entry("a name that is not lower case"),
     "XEI0107": Entry("a text that is too large or nested too deeply"),
     "XEI0108": Entry("a version of the language that this compiler does not know"),
+    "XEI0109": Entry("more syntax errors than are shown"),
     "XEI0120": Entry("an import that leads out of the project folder"),
     "XEI0121": Entry("files that import each other in a circle"),
     "XEI0122": Entry("a file that cannot be imported"),

@@ -7,10 +7,10 @@ counters, and needs no import of lark.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
-from xei_lang.syntax.lexer import COMMENT, SIGN, WORD, Scanner, Token
+from xei_lang.syntax.lexer import COMMENT, WORD, Scanner, Token
 from xei_lang.syntax.tables import END, Tables
 
 Reduction = Callable[[list[Any]], Any]
@@ -31,10 +31,11 @@ class Driver:
         self.tables = tables
         self.scanner = Scanner(tables)
 
-    def parse(self, text: str, start: str, builder: Any, comments: list[Token]) -> Any:
-        """The value that `builder` makes of `text`; its method `on_<rule>` gets a rule's children as a list.
+    def parse(self, tokens: Iterable[Token], start: str, builder: Any, comments: list[Token]) -> Any:
+        """The value that `builder` makes of the tokens, the last of which is END.
 
-        Comments are appended to `comments` as they are met. Raises WrongTokenError at the first wrong token.
+        The method `on_<rule>` of the builder gets a rule's children as a list. Comments are appended to
+        `comments` as they are met. Raises WrongTokenError at the first wrong token.
         """
         tables = self.tables
         rules, actions, gotos = tables.rules, tables.actions, tables.gotos
@@ -42,10 +43,7 @@ class Driver:
         end_state = tables.end_states[start]
         states = [tables.start_states[start]]
         values: list[Any] = []
-        position = 0
-        while True:
-            token = self._next(text, position)
-            position = token.end
+        for token in tokens:
             kind = token.kind
             if kind == COMMENT:
                 comments.append(token)
@@ -73,49 +71,7 @@ class Driver:
                     states.append(gotos[states[-1]][rule.origin])
                 if kind == END and states[-1] == end_state:
                     return values[-1]
-
-    def expected(self, tokens: list[Token], start: str) -> frozenset[str]:
-        """The terminals that may really follow after these tokens, which must be right ones.
-
-        The machine itself cannot say so when it stops: it may have reduced on the wrong token's behalf first.
-        """
-        states = [self.tables.start_states[start]]
-        for token in tokens:
-            kind = self._word_kind(states, token.text) if token.text in self.tables.words else token.kind
-            while (action := self.tables.actions[states[-1]][kind]) < 0:
-                rule = self.tables.rules[-1 - action]
-                del states[len(states) - rule.size :]
-                states.append(self.tables.gotos[states[-1]][rule.origin])
-            states.append(action)
-        end_state = self.tables.end_states[start]
-        here = self.tables.actions[states[-1]]
-        return frozenset(kind for kind in here if self._may_follow(states, kind, end_state))
-
-    def tokens(self, text: str, until: int) -> list[Token]:
-        """The tokens that end at `until` or before, comments left out; keywords are still names here."""
-        found: list[Token] = []
-        position = 0
-        while True:
-            token = self._next(text, position)
-            position = token.end
-            if token.kind == END or position > until:
-                return found
-            if token.kind != COMMENT:
-                found.append(token)
-
-    def _next(self, text: str, position: int) -> Token:
-        match = self.scanner.match(text, position)
-        if match is None:
-            position = self.scanner.skip_space(text, position)
-            return (
-                self.scanner.stray(text, position)
-                if position < len(text)
-                else Token(END, "", position, position)
-            )
-        kind = match.lastgroup or ""
-        start, end = match.span(kind)
-        written = match[kind]
-        return Token(self.tables.signs[written] if kind == SIGN else kind, written, start, end)
+        raise AssertionError("the tokens end without END")
 
     def _word_kind(self, states: list[int], word: str) -> str:
         """Whether a word that may be a keyword is one here, or a name. Where both could be shifted, it is."""

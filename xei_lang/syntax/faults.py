@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
-from xei_lang.diagnostics import Diagnostic, Label, Source, Span
-from xei_lang.syntax.driver import Driver
-from xei_lang.syntax.habits import find_habit
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from xei_lang.diagnostics import Diagnostic, Edit, Fix, Label, Source, Span
+from xei_lang.syntax.braces import BraceFault
+from xei_lang.syntax.habits import Habit
+from xei_lang.syntax.layout import begins_line
 from xei_lang.syntax.lexer import Token
+from xei_lang.syntax.repairs import Repair
+from xei_lang.syntax.stack import Machine, Stack
 from xei_lang.syntax.tables import END, Tables
 
 _CLOSING = {"(": ")", "[": "]", "{": "}"}
@@ -36,33 +43,102 @@ _STATEMENT_WORDS = frozenset(
 _MOST_NAMED = 4
 
 
-def explain(source: Source, start: str, token: Token, driver: Driver) -> Diagnostic:
-    """The diagnostic for the first token that cannot stand where it stands.
+@dataclass(frozen=True, slots=True)
+class Site:
+    """A token that cannot follow: the machine as it was, what stands before and behind, and the likely mend."""
 
-    A habit that is known (a wrong unit, `;`) is named as such.
-    """
-    before = driver.tokens(source.text, token.start)
-    habit = find_habit(before, token, source.text)
-    if habit is not None:
-        span = Span(source.file, habit.start, habit.end)
-        return Diagnostic(
-            "XEI0104", habit.message, span, habit.label, help=habit.help, fix=habit.fix(source.file)
-        )
-    terminals = driver.expected(before, start)
-    expected = _in_words(terminals, driver.tables)
+    machine: Machine
+    stack: Stack
+    before: tuple[Token, ...]
+    tokens: Sequence[Token]
+    at: int
+    opened: tuple[Token, Any] | None
+    repair: Repair | None
+
+
+def explain(source: Source, site: Site) -> Diagnostic:
+    """The diagnostic for a token that cannot stand where it stands."""
+    token, before = site.tokens[site.at], site.before
+    opened = site.opened[0] if site.opened else None
+    slip = _slip(source, site)
+    if slip is not None:
+        return slip
+    terminals = site.machine.expected(site.stack)
+    expected = _in_words(terminals, site.machine.tables)
     after = f" after {_quoted(before[-1].text)}" if before else ""
-    span = _place(source, token, before)
-    opened = _unclosed(before)
+    span = _place(source, site)
     if token.kind == END and opened is not None:
-        message = f"the file ends before `{opened.text}` is closed"
-        labels = (Label(Span(source.file, opened.start, opened.end), "opened here"),)
-        return Diagnostic("XEI0104", message, span, f"expected `{_CLOSING[opened.text]}`", labels)
+        return _never_closed(source, opened, span)
     found = "the text ends" if token.kind == END else f"found {_quoted(token.text)}"
     message = f"expected {expected}{after}, but {found}"
     labels = _opening_label(source, token, opened)
+    help_ = _advice(terminals, before)
+    return Diagnostic("XEI0104", message, span, f"expected {expected}", labels, help=help_)
+
+
+def explain_habit(source: Source, habit: Habit) -> Diagnostic:
+    """The diagnostic for a miswriting that is known by name."""
+    span = Span(source.file, habit.start, habit.end)
+    fix = habit.fix(source.file)
+    return Diagnostic("XEI0104", habit.message, span, habit.label, help=habit.help, fix=fix)
+
+
+def explain_brace(source: Source, fault: BraceFault, tokens: Sequence[Token]) -> Diagnostic:
+    """The diagnostic for a brace whose lack or surplus shows in the indentation."""
+    token, file = tokens[fault.index], source.file
+    if fault.kind == "extra":
+        span = Span(file, token.start, token.end)
+        fix = Fix("unsafe", (Edit(span, ""),))
+        return Diagnostic("XEI0104", "this `}` closes nothing", span, "one too many", fix=fix)
+    end = tokens[fault.index - 1].end
+    opener = fault.opener
+    labels = (Label(Span(file, opener.start, opener.end), "opened here"),) if opener else ()
+    if token.kind == END and opener:
+        return _never_closed(source, opener, Span(file, end, end))
+    if (opener and "\n" not in source.text[opener.start : end]) or token.kind == END:
+        place, label = Span(file, end, end), "expected `}`"
+        edit = Edit(place, " }")
+    else:
+        place, label = Span(file, token.start, token.end), "by its indentation, this stands behind the block"
+        line = source.text.rfind("\n", 0, token.start) + 1
+        edit = Edit(Span(file, line, line), " " * fault.indent + "}\n")
+    message = f"a `}}` is missing before {_quoted(token.text)}"
+    return Diagnostic("XEI0104", message, place, label, labels, fix=Fix("unsafe", (edit,)))
+
+
+def too_many(source: Source, token: Token, count: int) -> Diagnostic:
+    """The last word on a file that has more mistakes than anyone reads."""
     return Diagnostic(
-        "XEI0104", message, span, f"expected {expected}", labels, help=_advice(terminals, before)
+        "XEI0109",
+        f"only the first {count} syntax errors of this file are shown",
+        Span(source.file, token.start, token.end),
+        "what follows was not read",
+        help=("mend these first",),
     )
+
+
+def _slip(source: Source, site: Site) -> Diagnostic | None:
+    """A word that is nearly the keyword that belongs there, or a sign that was written twice."""
+    repair = site.repair
+    if repair is None:
+        return None
+    blamed = repair.blamed
+    span = Span(source.file, blamed.start, blamed.end)
+    if repair.kind == "replace" and repair.meant:
+        fix = Fix("unsafe", (Edit(span, repair.meant),))
+        message = f"{_quoted(blamed.text)} cannot stand here; `{repair.meant}` can"
+        return Diagnostic("XEI0104", message, span, f"expected `{repair.meant}`", fix=fix)
+    twice = site.before[-repair.back - 1 : len(site.before) - repair.back]
+    if repair.kind == "delete" and twice and twice[0].text == blamed.text:
+        fix = Fix("unsafe", (Edit(span, ""),))
+        return Diagnostic("XEI0104", f"{_quoted(blamed.text)} stands here twice", span, "one too many", fix=fix)
+    return None
+
+
+def _never_closed(source: Source, opened: Token, span: Span) -> Diagnostic:
+    message = f"the file ends before `{opened.text}` is closed"
+    labels = (Label(Span(source.file, opened.start, opened.end), "opened here"),)
+    return Diagnostic("XEI0104", message, span, f"expected `{_CLOSING[opened.text]}`", labels)
 
 
 def _opening_label(source: Source, token: Token, opened: Token | None) -> tuple[Label, ...]:
@@ -72,30 +148,33 @@ def _opening_label(source: Source, token: Token, opened: Token | None) -> tuple[
     return (Label(Span(source.file, opened.start, opened.end), "opened here"),)
 
 
-def _advice(expected: frozenset[str], before: list[Token]) -> tuple[str, ...]:
+def _advice(expected: frozenset[str], before: tuple[Token, ...]) -> tuple[str, ...]:
     if expected == frozenset({"LPAR", "COLON"}) and before:
         name = before[-1].text
         return (f"a step is a call, `{name}(...)`; a label before a step ends in a colon, `{name}: ...`",)
     return ()
 
 
-def _place(source: Source, token: Token, before: list[Token]) -> Span:
-    """The token; the end of the last word where the text ends too early, so that a written line is shown."""
-    if token.kind == END:
+def _place(source: Source, site: Site) -> Span:
+    """The wrong token; the end of the last one if that lacks something and the wrong one begins a line.
+
+    A line that breaks off is the place of the mistake, not the good line below it.
+    """
+    token, before, repair = site.tokens[site.at], site.before, site.repair
+    if token.kind == END or (before and begins_line(site.tokens, site.at, source.text)):
         end = before[-1].end if before else 0
-        return Span(source.file, end, end)
+        if token.kind == END or _lacks(site, repair):
+            return Span(source.file, end, end)
     return Span(source.file, token.start, token.end)
 
 
-def _unclosed(tokens: list[Token]) -> Token | None:
-    """The innermost bracket that is still open after these tokens."""
-    opened: list[Token] = []
-    for token in tokens:
-        if token.text in _CLOSING:
-            opened.append(token)
-        elif opened and token.text in _OPENING and opened[-1].text == _OPENING[token.text]:
-            opened.pop()
-    return opened[-1] if opened else None
+def _lacks(site: Site, repair: Repair | None) -> bool:
+    """Whether it is the token before the wrong one that something is missing behind."""
+    if site.machine.shift(site.stack, "WAIT") or site.machine.shift(site.stack, "PROTOCOL"):
+        return False
+    if repair is not None and repair.back == 0:
+        return repair.kind == "insert"
+    return repair is not None or site.before[-1].text not in (",", "(", "[")
 
 
 def _in_words(expected: frozenset[str], tables: Tables) -> str:

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from xei_lang.diagnostics import Edit, Fix, Span
 from xei_lang.quantity import suggest_unit
+from xei_lang.syntax.layout import line_end
 from xei_lang.syntax.lexer import STRAY, Token
 
 
 @dataclass(frozen=True, slots=True)
 class Habit:
-    """A known miswriting at characters `[start, end)`, with the text to put there if that mends it."""
+    """A known miswriting at characters `[start, end)`, with the text to put there if that mends it.
+
+    `certain` says that the mend can mean nothing else than what was meant. The text is read on behind
+    `through`, or behind the habit itself.
+    """
 
     message: str
     label: str
@@ -19,12 +24,15 @@ class Habit:
     end: int
     help: tuple[str, ...] = ()
     mend: str | None = None
+    certain: bool = True
+    through: int = 0
 
     def fix(self, file: str) -> Fix | None:
-        """The mend as an edit; all of these keep what was meant."""
+        """The mend as an edit."""
         if self.mend is None:
             return None
-        return Fix("safe", (Edit(Span(file, self.start, self.end), self.mend),))
+        edit = Edit(Span(file, self.start, self.end), self.mend)
+        return Fix("safe" if self.certain else "unsafe", (edit,))
 
 
 _SIGNS = {"&": "and", "|": "or", "/": "#"}
@@ -37,7 +45,9 @@ def find_habit(before: list[Token], token: Token, text: str) -> Habit | None:
     if found is not None:
         return found
     if token.text == "/" and before and before[-1].text == "/" and before[-1].end == token.start:
-        return _instead("//", "#", before[-1].start, "write `#`")
+        return replace(
+            _instead("//", "#", before[-1].start, "write `#`"), through=line_end(text, token.end)
+        )
     if token.text in _SIGNS:
         doubled = text.startswith(token.text, token.end)
         right = _SIGNS[token.text]

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from typing import NamedTuple
 
-from xei_lang.syntax.tables import Tables
+from xei_lang.syntax.tables import END, Tables
 
 
 class Token(NamedTuple):
@@ -36,16 +37,30 @@ class Scanner:
         signs = "|".join(
             re.escape(sign) for sign in sorted(tables.signs, key=lambda sign: (-len(sign), sign))
         )
+        self._signs = tables.signs
         self._space = re.compile(f"(?:{space})?")
-        self.match = re.compile(f"(?:{space})?(?:{'|'.join(named)}|(?P<{SIGN}>{signs}))").match
+        self._match = re.compile(f"(?:{space})?(?:{'|'.join(named)}|(?P<{SIGN}>{signs}))").match
 
-    def skip_space(self, text: str, position: int) -> int:
-        """The first place from `position` on that is not white space."""
-        match = self._space.match(text, position)
-        return match.end() if match else position
+    def tokens(self, text: str, position: int = 0) -> Iterator[Token]:
+        """The tokens from a place on, comments among them; the last is END. Keywords are still names here."""
+        find, signs = self._match, self._signs
+        while True:
+            match = find(text, position)
+            if match is None:
+                token = self._other(text, position)
+                yield token
+                if token.kind == END:
+                    return
+                position = token.end
+                continue
+            kind = match.lastgroup or ""
+            start, position = match.span(kind)
+            written = match[kind]
+            yield Token(signs[written] if kind == SIGN else kind, written, start, position)
 
-    def stray(self, text: str, position: int) -> Token:
-        """What stands at a place where no token begins, as people would point at it."""
+    def _other(self, text: str, position: int) -> Token:
+        """The end of the text, or what stands where no token begins, as people would point at it."""
+        space = self._space.match(text, position)
+        position = space.end() if space else position
         match = _STRAY.match(text, position)
-        assert match is not None
-        return Token(STRAY, match[0], position, match.end())
+        return Token(STRAY, match[0], position, match.end()) if match else Token(END, "", position, position)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any
 
-from xei_lang.diagnostics import Diagnostic, Diagnostics, Source, Span
+from xei_lang.diagnostics import Diagnostic, Diagnostics, Source, Span, has_errors
 from xei_lang.syntax import ast
 from xei_lang.syntax.builder import Builder
 from xei_lang.syntax.driver import Driver, WrongTokenError
@@ -22,9 +24,13 @@ class Parser:
         self._driver = Driver(load_tables())
 
     def module(self, source: Source) -> tuple[ast.Module | None, Diagnostics]:
-        """A whole file; None where the text does not follow the grammar: the first such place is reported."""
+        """A whole file. Where the text does not follow the grammar, what could be read of it.
+
+        Every mistake is reported; `damaged` of the module says where it is not what was written. None where
+        nothing could be read.
+        """
         module, diagnostics = self._parse(source, "module")
-        if module is not None and not any(
+        if module is not None and not has_errors(diagnostics) and not any(
             isinstance(item, ast.Protocol | ast.Procedure) for item in module.items
         ):
             return None, (*diagnostics, _no_protocol(source, module))
@@ -43,18 +49,37 @@ class Parser:
         return self._parse(source, "role_expression")
 
     def _parse(self, source: Source, start: str) -> tuple[Any, Diagnostics]:
+        try:
+            return self._build(source, start, self._driver.scanner.tokens(source.text))
+        except WrongTokenError:
+            return self._rescue(source, start)
+
+    def _build(self, source: Source, start: str, tokens: Iterable[Token]) -> tuple[Any, Diagnostics]:
         comments: list[Token] = []
         builder = Builder(source, comments)
-        try:
-            node = self._driver.parse(source.text, start, builder, comments)
-        except WrongTokenError as fault:
-            from xei_lang.syntax.faults import explain
-
-            return None, (*builder.diagnostics, explain(source, start, fault.token, self._driver))
+        node = self._driver.parse(tokens, start, builder, comments)
         deep = too_deep(node)
         if deep is not None:
             return None, (*builder.diagnostics, _too_deep(deep))
         return node, tuple(builder.diagnostics)
+
+    def _rescue(self, source: Source, start: str) -> tuple[Any, Diagnostics]:
+        from xei_lang.syntax.recovery import recover
+        from xei_lang.syntax.stack import Machine
+
+        recovered = recover(source, Machine(self._driver.tables, start), self._driver.scanner)
+        said = recovered.diagnostics
+        if recovered.tokens is None or start != "module":
+            return None, said
+        module, more = self._build(source, start, recovered.tokens)
+        if module is not None:
+            module = replace(module, damaged=recovered.damaged)
+        trusted = [diagnostic for diagnostic in more if not _is_in(diagnostic.span, recovered.damaged)]
+        return module, (*said, *trusted) if module is not None else said
+
+
+def _is_in(span: Span | None, damaged: tuple[Span, ...]) -> bool:
+    return span is None or any(part.start <= span.start <= part.end for part in damaged)
 
 
 def parse_module(source: Source) -> tuple[ast.Module | None, Diagnostics]:

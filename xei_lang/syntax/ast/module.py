@@ -121,9 +121,13 @@ Item = Import | ImportTable | Protocol | Procedure
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Module(Shown):
-    """A whole file. `version` is the number behind `xei`, None where the file does not say."""
+    """A whole file. `version` is the number behind `xei`, None where the file does not say.
+
+    `damaged` are the parts that did not follow the grammar and were mended or left out to make this tree.
+    """
 
     version: Number | None
     items: tuple[Item, ...]
     comments: tuple[Comment, ...]
     span: Span
+    damaged: tuple[Span, ...] = ()

@@ -1,0 +1,49 @@
+"""How tokens stand on the page: which begin a line, how far that is indented, what looks like a statement.
+
+White space means nothing to the grammar. Where the grammar fails, it tells what the writer had in mind.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from xei_lang.syntax.lexer import WORD, Token
+
+_TAB = 8
+_BEGINNINGS = frozenset(
+    "wait start await stop leave pause keep measure confirm do parallel for repeat if let require unmapped "
+    "note profile param object given protocol procedure import".split()
+)
+
+
+def begins_line(tokens: Sequence[Token], index: int, text: str) -> bool:
+    """Whether a token is the first of its line."""
+    return index == 0 or "\n" in text[tokens[index - 1].end : tokens[index].start]
+
+
+def indent(token: Token, text: str) -> int:
+    """The column of the first character of a token's line that is no white space."""
+    begin = text.rfind("\n", 0, token.start) + 1
+    line = text[begin : token.start]
+    return len(line[: len(line) - len(line.lstrip())].expandtabs(_TAB)) if line.strip() else _width(line)
+
+
+def looks_like_statement(tokens: Sequence[Token], index: int) -> bool:
+    """Whether a statement, declaration or definition probably begins here: by its word, or as a call or label."""
+    token = tokens[index]
+    if token.kind != WORD and token.text not in _BEGINNINGS:
+        return False
+    following = tokens[index + 1].text if index + 1 < len(tokens) else ""
+    if following in ("=", ",", ".", ")", "]"):
+        return False
+    return token.text in _BEGINNINGS or following in ("(", ":")
+
+
+def line_end(text: str, position: int) -> int:
+    """Where the line of a place ends, its line break left out."""
+    end = text.find("\n", position)
+    return len(text) if end < 0 else end
+
+
+def _width(line: str) -> int:
+    return len(line.expandtabs(_TAB))

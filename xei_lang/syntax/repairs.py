@@ -1,0 +1,150 @@
+"""Small changes that let a text go on where it fails: a token put in, left out or put in the place of another.
+
+What is tried is ranked by how far the text then follows the grammar, and after that by how likely the slip is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from xei_lang.diagnostics import did_you_mean
+from xei_lang.syntax.layout import begins_line, looks_like_statement
+from xei_lang.syntax.lexer import STRAY, WORD, Scanner, Token
+from xei_lang.syntax.stack import Machine, Stack
+from xei_lang.syntax.tables import END, Tables
+
+_LOOK = 12
+_ENOUGH = 3
+_BACK = 3
+_SIGNS = frozenset("()[]{}:=,.;")
+_FILLERS = {"NAME": "_", "NUMBER": "1", "STRING": '""', "QUANTITY": "1 s", "COMPARISON": "==", "UPDATE": ":="}
+_COSTS = {")": 1, "]": 1, ",": 1, ":": 1, "=": 1, "(": 2, "{": 2, "..": 2, "}": 6, ".": 4}
+_WORD_COST, _NAME_COST, _OTHER_COST = 3, 3, 5
+
+
+@dataclass(frozen=True, slots=True)
+class Repair:
+    """Take back `back` tokens, put `tokens` in their place, and leave out `drop` of those that come."""
+
+    kind: Literal["insert", "delete", "replace"]
+    back: int
+    tokens: tuple[Token, ...]
+    drop: int
+    cost: int
+    blamed: Token
+    """The token that is put in, left out, or replaced."""
+    meant: str = ""
+    """What was probably meant in the place of `blamed`."""
+
+
+def find_repair(
+    machine: Machine,
+    scanner: Scanner,
+    text: str,
+    done: Sequence[tuple[Token, Stack]],
+    stack: Stack,
+    tokens: Sequence[Token],
+    at: int,
+) -> Repair | None:
+    """The best repair where `tokens[at]` cannot follow `stack`; None where none lets the text go on.
+
+    `done` holds the tokens before, each with the stack that it met.
+    """
+    best: tuple[int, int] | None = None
+    found: Repair | None = None
+    for candidate in _candidates(machine, scanner, text, done, stack, tokens, at):
+        base = done[len(done) - candidate.back][1] if candidate.back else stack
+        begin = at + candidate.drop
+        window = (*candidate.tokens, *tokens[begin : begin + _LOOK])
+        reached = machine.run(base, window, 0, len(window))[1]
+        gain = reached - len(candidate.tokens) + (_LOOK if reached == len(window) else 0)
+        if gain < min(_ENOUGH, len(tokens) - begin):
+            continue
+        rank = (gain, -candidate.cost)
+        if best is None or rank > best:
+            best, found = rank, candidate
+    return found
+
+
+def _candidates(
+    machine: Machine,
+    scanner: Scanner,
+    text: str,
+    done: Sequence[tuple[Token, Stack]],
+    stack: Stack,
+    tokens: Sequence[Token],
+    at: int,
+) -> Iterator[Repair]:
+    wrong = tokens[at]
+    if wrong.kind == STRAY and wrong.text[0] == '"':
+        yield from _closed_texts(scanner, text, wrong)
+        return
+    first = begins_line(tokens, at, text) if at else True
+    opens_statement = first and looks_like_statement(tokens, at)
+    yield from _insertions(machine, stack, (), wrong, 0, first)
+    if wrong.kind != END and not opens_statement:
+        yield Repair("delete", 0, (), 1, 2, wrong)
+        yield from _replacements(machine, stack, (), wrong, 0)
+    for back in range(1, min(_BACK, len(done)) + 1):
+        old, before = done[len(done) - back]
+        if old.text in ("{", "}") or old.start == old.end:
+            return
+        later = tuple(token for token, _ in done[len(done) - back + 1 :])
+        yield from _insertions(machine, before, later, old, back, False)
+        yield Repair("delete", back, later, 0, 2 + back, old)
+        yield from _replacements(machine, before, later, old, back)
+
+
+def _insertions(
+    machine: Machine, stack: Stack, later: tuple[Token, ...], token: Token, back: int, first: bool
+) -> Iterator[Repair]:
+    spelled = spelling(machine.tables)
+    for kind in sorted(machine.expected(stack) - {END}):
+        written = spelled.get(kind, "")
+        new = Token(kind, written, token.start, token.start)
+        cost = _COSTS.get(written, _WORD_COST if written.isalpha() else _OTHER_COST)
+        if kind == WORD:
+            cost = _NAME_COST
+        if first and written == "{":
+            cost = 0
+        after = (token, *later) if back else ()
+        yield Repair("insert", back, (new, *after), 0, cost + back, new, written)
+
+
+def _replacements(
+    machine: Machine, stack: Stack, later: tuple[Token, ...], token: Token, back: int
+) -> Iterator[Repair]:
+    drop = 0 if back else 1
+    expected = machine.expected(stack)
+    spelled = spelling(machine.tables)
+    known = {spelled[kind]: kind for kind in expected if kind in spelled}
+    if token.text.isidentifier():
+        for word in did_you_mean(token.text, [word for word in known if word.isalpha() and word != "_"])[:1]:
+            if word != token.text:
+                new = Token(known[word], word, token.start, token.end)
+                yield Repair("replace", back, (new, *later), drop, 1 + back, token, word)
+    elif token.text in _SIGNS or token.kind == STRAY:
+        for sign in sorted(known):
+            if sign in _SIGNS and sign not in "{}":
+                new = Token(known[sign], sign, token.start, token.end)
+                yield Repair("replace", back, (new, *later), drop, 3 + back, token, sign)
+
+
+def _closed_texts(scanner: Scanner, text: str, wrong: Token) -> Iterator[Repair]:
+    """A text that is not closed may end before any bracket or comma, or with its line."""
+    cuts = [index for index, char in enumerate(wrong.text) if index and char in ",)]}"][:8]
+    for cost, cut in enumerate((*reversed(cuts), len(wrong.text))):
+        end = wrong.start + len(wrong.text[:cut].rstrip())
+        closed = Token("STRING", wrong.text[:cut].rstrip() + '"', wrong.start, end)
+        rest: list[Token] = []
+        for token in scanner.tokens(text[: wrong.end], wrong.start + cut):
+            if token.kind != END:
+                rest.append(token)
+        yield Repair("replace", 0, (closed, *rest), 1, cost, wrong)
+
+
+def spelling(tables: Tables) -> dict[str, str]:
+    """A way to write each terminal: keywords and signs themselves, the others by an example."""
+    return {kind: text for text, kind in (tables.words | tables.signs).items()} | _FILLERS
