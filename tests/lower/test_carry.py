@@ -85,7 +85,7 @@ def test_the_carry_pose_says_why_and_where_it_is_written() -> None:
     (why,) = goal.parameters
     pose = profile.calibration.carry_pose("right")
     assert pose is not None
-    assert (why.name, why.value, why.source) == ("carry_pose", "(360, -300, 950) mm", "computed")
+    assert (why.name, why.value, why.source) == ("carry_pose", "(420, -360, 950) mm", "computed")
     assert "the right hand holds `tube_1`" in why.rule
     assert "`transport`" in why.rule
     assert why.span == pose.span

@@ -30,6 +30,7 @@ Array = NDArray[np.float64]
 STEP = np.array([0.01, 0.01, 0.01, 0.07, 0.02, 0.07])
 _SPEED = np.array([0.4, 0.4, 0.4, 1.5, 0.1, 1.5])
 _ROOM_M = 0.35
+_MARGIN_M = 0.01
 _JUMP_RAD = 0.4
 _ALIGNED = 1e-3
 _MAX_CHECKS = 500
@@ -135,6 +136,14 @@ def _tool(context: Context, side: Side, q: Array, q_arm: Array) -> Array:
     return context.robot.T_base_frame(context.lift(q, side, q_arm), context.robot.arm(side).tool_frame)
 
 
+def work_room(context: Context, ends: Array) -> tuple[Array, Array]:
+    """The corners (3,) of where a tool that works may be, in the base frame: within the workspace by a margin
+    that rounded corners may use up, and around both ends (2, 3) of its way.
+    """
+    least, most = (np.array(corner) for corner in context.profile.calibration.workspace_bounds_m)
+    return np.minimum(least + _MARGIN_M, ends.min(axis=0)), np.maximum(most - _MARGIN_M, ends.max(axis=0))
+
+
 def _wrapped(angle: float) -> float:
     return math.remainder(angle, 2.0 * math.pi)
 
@@ -147,6 +156,8 @@ def _space(
     room = np.array([_ROOM_M, _ROOM_M, _ROOM_M, math.pi, 0.0, math.pi])
     lower, upper = low - room, high + room
     lower[4], upper[4] = slide.lower, slide.upper
+    least, most = work_room(context, np.stack([start[:3], goal[:3]]))
+    lower[:3], upper[:3] = np.maximum(lower[:3], least), np.minimum(upper[:3], most)
     names = ("x", "y", "z", "turn", "slide", "swivel")
     return UprightSpace(names, lower, upper, _SPEED, arm, solver, branch, R_start)
 

@@ -20,7 +20,7 @@ from xei_lang.motion.sequence.context import Context
 from xei_lang.motion.sequence.poses import matrix
 from xei_lang.motion.sequence.snapshot import Snapshot
 from xei_lang.motion.sequence.space import Pair, SceneSpace, space_for
-from xei_lang.motion.sequence.upright import tilt
+from xei_lang.motion.sequence.upright import tilt, work_room
 
 Array = NDArray[np.float64]
 
@@ -34,7 +34,9 @@ _SAMPLE_RAD = 0.05
 
 @dataclass(frozen=True, slots=True)
 class Upright:
-    """The constraint that an axis of the tool (3,) stands within `within_rad` of the vertical."""
+    """The constraint that an axis of the tool (3,) stands within `within_rad` of the vertical, and the tool
+    between the corners of `room` in the base frame, m.
+    """
 
     robot: Robot
     frame: str
@@ -42,20 +44,25 @@ class Upright:
     rest: Array
     columns: list[int]
     within_rad: float
+    room: tuple[Array, Array]
 
     def project(self, q: Array) -> Array | None:
         """The configuration (n,) turned upright by Gauss-Newton steps of least norm; None where they do not
-        end.
+        end, or end outside the room.
         """
         whole = self.rest.copy()
         for _ in range(_ITERATIONS):
             whole[self.columns] = q
-            up = self.robot.T_base_frame(whole, self.frame)[:3, :3] @ self.axis
+            T_base_tool = self.robot.T_base_frame(whole, self.frame)
+            up = T_base_tool[:3, :3] @ self.axis
             if up[2] >= math.cos(self.within_rad):
-                return q
+                return q if self._is_in_room(T_base_tool[:3, 3]) else None
             turning = self.robot.jacobian(whole, self.frame)[3:, self.columns]
             q = q - np.linalg.pinv(np.cross(turning.T, up).T[:2], rcond=1e-3) @ up[:2]
         return None
+
+    def _is_in_room(self, point: Array) -> bool:
+        return bool(np.all(point >= self.room[0]) and np.all(point <= self.room[1]))
 
 
 def plan_upright_joints(
@@ -68,7 +75,9 @@ def plan_upright_joints(
     bound = context.profile.calibration.spill_tilt_rad
     frame = context.robot.arm(side).tool_frame
     axis = matrix(before.held[side].T_tool_object)[:3, 2]
-    upright = Upright(context.robot, frame, axis, before.q, columns, SLACK * bound)
+    tools = [context.robot.T_base_frame(context.lift(before.q, side, q), frame) for q in (q_start, q_goal)]
+    room = work_room(context, np.stack([T[:3, 3] for T in tools]))
+    upright = Upright(context.robot, frame, axis, before.q, columns, SLACK * bound, room)
     way = constrained_connect(space, upright.project, q_start, q_goal, seed, _MAX_CHECKS)
     if way is None:
         return None
