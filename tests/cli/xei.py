@@ -22,8 +22,8 @@ class Ran:
 
 def start(*args: str, cwd: Path, env: dict[str, str] | None = None) -> subprocess.Popen[str]:
     program = [sys.executable, "-c", "from xei_lang.cli.main import run; run()", *args]
-    environment = {**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1", **(env or {})}
-    environment.setdefault("XDG_CACHE_HOME", str(cwd / ".cache"))
+    own = {"PYTHONPATH": str(ROOT), "NO_COLOR": "1", "XDG_CACHE_HOME": str(cwd / ".cache")}
+    environment = {**os.environ, **own, **(env or {})}
     return subprocess.Popen(
         program, cwd=cwd, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
         stderr=subprocess.PIPE, text=True,
