@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import posixpath
+import re
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
@@ -12,6 +15,7 @@ from xei_lang.ir.skill_plan import SkillPlan
 from xei_lang.profiles.load import load_profile
 from xei_lang.profiles.model import Profile
 from xei_lang.syntax import Parser
+from xei_lang.syntax.loading import LoadedFile, Unusable
 
 ROOT = Path(__file__).parents[2]
 LAB = Path(__file__).with_name("lab")
@@ -38,12 +42,36 @@ def profile_sources() -> Sources:
     return {file: Source(file, (LAB / Path(file).name).read_text(encoding="utf-8")) for file in sorted(files)}
 
 
+@dataclass(frozen=True)
+class Written:
+    """Files that a test has written out, by their paths; see `split_files`."""
+
+    texts: dict[str, str]
+
+    def identity(self, file: str) -> str:
+        return posixpath.normpath(file)
+
+    def read(self, importing: str, path: str) -> LoadedFile | Unusable:
+        joined = posixpath.normpath(posixpath.join(posixpath.dirname(importing), path))
+        if joined.startswith(".."):
+            return Unusable("lies outside of the project folder", True)
+        text = self.texts.get(joined)
+        return Unusable("does not exist") if text is None else LoadedFile(Source(joined, text), joined)
+
+
+def split_files(text: str) -> tuple[str, dict[str, str]]:
+    """The protocol, and the files that follow it, each after a line `# file: its/path`."""
+    first, *others = re.split(r"^# file: (\S+)\n", text, flags=re.MULTILINE)
+    return first, dict(zip(others[::2], others[1::2], strict=True))
+
+
 def check(text: str, folder: Path = LAB, **options: object) -> tuple[SkillPlan | None, Diagnostics]:
-    """Check a text with options as CheckOptions has them; it must parse."""
+    """Check a text with options as CheckOptions has them; it must parse. Files that it imports may follow."""
+    text, others = split_files(text)
     source = Source("t.xei", text)
     module, diagnostics = parser().module(source)
     assert module is not None, render_full(diagnostics, {"t.xei": source})
-    given = CheckOptions(sources=profile_sources(), **options)  # type: ignore[arg-type]
+    given = CheckOptions(sources=profile_sources(), files=Written({**others, "t.xei": text}), **options)  # type: ignore[arg-type]
     return check_module(module, source, profile(folder), given)
 
 
@@ -55,7 +83,10 @@ def plan_of(text: str, folder: Path = LAB, **options: object) -> SkillPlan:
 
 
 def rendered(text: str, diagnostics: Diagnostics) -> str:
-    return render_full(diagnostics, {"t.xei": Source("t.xei", text)})
+    main, others = split_files(text)
+    return render_full(
+        diagnostics, {name: Source(name, body) for name, body in {**others, "t.xei": main}.items()}
+    )
 
 
 def protocol(body: str) -> str:

@@ -68,7 +68,8 @@ def test_no_mutation_makes_the_checker_raise(data: st.DataObject) -> None:
         tokens = list(re.finditer(r'\w+|"[^"]*"|[^\s\w]', text))
         token = tokens[data.draw(st.integers(0, len(tokens) - 1))]
         text = text[: token.start()] + data.draw(st.sampled_from(["", *WORDS])) + text[token.end() :]
-    if parser().module(Source("t.xei", text))[0] is None:
+    module, said = parser().module(Source("t.xei", text))
+    if module is None or has_errors(said):
         return
     for open_bindings in (False, True):
         plan, diagnostics = check(text, LAB, open_bindings=open_bindings, max_steps=500)

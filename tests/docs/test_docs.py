@@ -2,9 +2,10 @@
 
 The blocks of a page, in their order:
 
-- `xei`: a whole file is written to `protocols/<its name>.xei` of a copy of the project, a piece of a protocol
-  is put inside one of the bench. It is checked, and must be clean or say exactly what the `text` block
-  behind it shows; unless the next block is an `sh` block that names its file.
+- `xei`: a whole file is written to `protocols/<its name>.xei` of a copy of the project, or to the path that
+  is its first line (`# protocols/lib/caps.xei`); a piece of a protocol is put inside one of the bench. It is
+  checked, and must be clean or say exactly what the `text` block behind it shows; unless the next block is an
+  `sh` block that names its file.
 - `sh`: what calls xei (and does not install it) is run in that copy, and prints what the `text` block behind
   it shows. Numbers that depend on the machine or on the plan that was found are not compared.
 - `json`: is written to the file that was named last before it.
@@ -34,6 +35,7 @@ PIECE = 'protocol piece {{\n  profile "openarm_bench"\n{}\n}}\n'
 
 _BLOCK = re.compile(r"^```(?P<language>[a-z]*)\n(?P<body>.*?)^```$\n?", re.DOTALL | re.MULTILINE)
 _NAME = re.compile(r"^protocol (\w+)", re.MULTILINE)
+_STATED = re.compile(r"# (protocols/\S+)$", re.MULTILINE)
 _WHOLE = re.compile(r"^(xei \d|import|protocol|procedure)\b", re.MULTILINE)
 _COMMAND = re.compile(r"^(\.venv/bin/)?xei\s")
 _NUMBER = re.compile(r"\d+(\.\d+)?")
@@ -129,8 +131,9 @@ def _run(block: Block, project: Path, cache: Path) -> str | None:
 
 
 def _written(body: str, project: Path) -> str:
-    named = _NAME.search(body)
-    file = f"protocols/{named[1] if named else 'piece'}.xei"
+    stated, named = _STATED.match(body), _NAME.search(body)
+    file = stated[1] if stated else f"protocols/{named[1] if named else 'piece'}.xei"
+    (project / file).parent.mkdir(parents=True, exist_ok=True)
     (project / file).write_text(body if _WHOLE.search(body) else PIECE.format(body), encoding="utf-8")
     return file
 

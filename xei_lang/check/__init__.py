@@ -6,6 +6,6 @@ Imports neither numpy, networkx nor pydantic: checking must start at once.
 from __future__ import annotations
 
 from xei_lang.check.binding import CheckOptions
-from xei_lang.check.module import check_module, profile_name
+from xei_lang.check.module import check_module, is_library, profile_name
 
-__all__ = ["CheckOptions", "check_module", "profile_name"]
+__all__ = ["CheckOptions", "check_module", "is_library", "profile_name"]

@@ -28,6 +28,7 @@ from xei_lang.check.values import (
 from xei_lang.diagnostics import Label, Sources, Span, did_you_mean
 from xei_lang.quantity import DimensionError, QuantityError
 from xei_lang.syntax.ast import Name, ObjectDecl, Param, Range, StringLit
+from xei_lang.syntax.loading import Files
 
 _NOTHING: Mapping[str, str] = MappingProxyType({})
 
@@ -39,7 +40,7 @@ class CheckOptions:
     `bindings` gives objects (`--bind rack=rack_1`), `params` the text of values (`--param volume="2 mL"`).
     With `open_bindings`, as in `xei check`, an object without binding is any object with its roles, and a
     ranged parameter is its whole interval. `sources` are the texts of the profile's files, so that notes can
-    name a rule's line.
+    name a rule's line, `files` are those that imports may name; without them every import is an error.
     """
 
     bindings: Mapping[str, str] = field(default_factory=lambda: _NOTHING)
@@ -47,6 +48,7 @@ class CheckOptions:
     open_bindings: bool = False
     max_steps: int = 100_000
     sources: Sources = field(default_factory=dict[str, "object"])  # type: ignore[assignment]
+    files: Files | None = None
 
 
 class Binder:

@@ -15,6 +15,7 @@ from xei_lang.check.report import Reporter, listed, meant
 from xei_lang.check.scope import Scope
 from xei_lang.check.state import State
 from xei_lang.check.types import ANY_ARM, Types
+from xei_lang.check.units import Unit
 from xei_lang.check.values import (
     POISON,
     Interval,
@@ -58,8 +59,8 @@ class _Prepared:
 class Calls:
     """Checks calls of skills; the contracts are prepared once.
 
-    `procedures` are names that can be called, too; with `imports` there may be more of them than are known
-    here.
+    `units` are the files, each with the procedures that can be called in it, too; where an import could
+    not be read there may be more of them than are known.
     """
 
     def __init__(
@@ -68,16 +69,13 @@ class Calls:
         evaluator: Evaluator,
         types: Types,
         reporter: Reporter,
-        *,
-        procedures: tuple[str, ...],
-        imports: bool,
+        units: Mapping[str, Unit],
     ) -> None:
         self._registry = registry
         self._evaluator = evaluator
         self._types = types
         self._reporter = reporter
-        self._procedures = procedures
-        self._imports = imports
+        self._units = units
         self._prepared: dict[str, _Prepared] = {}
 
     def check(self, call: Call, scope: Scope, state: State) -> CheckedCall | None:
@@ -104,7 +102,8 @@ class Calls:
         name = call.callee.id
         skill = self._registry.skills.get(name)
         callable_skills = tuple(skill.name for skill in self._registry.skills.values() if skill.exposed)
-        if skill is None and self._imports:
+        unit = self._units[call.span.file]
+        if skill is None and not unit.complete:
             return None
         if skill is None:
             self._reporter.report(
@@ -112,7 +111,7 @@ class Calls:
                 f"there is no skill `{name}`",
                 call.callee.span,
                 "neither a skill of this robot nor a procedure of this file",
-                help=meant(did_you_mean(name, (*callable_skills, *self._procedures)))
+                help=meant(did_you_mean(name, (*callable_skills, *unit.procedures)))
                 or (f"this robot's skills are {listed(callable_skills, 12)}",),
             )
         elif not skill.exposed:

@@ -35,7 +35,7 @@ def choice(expander: Expander, step: Step, node: If, scope: Scope, where: Where)
 
 
 def _both(expander: Expander, step: Step, node: If, scope: Scope, where: Where) -> None:
-    plan, condition = expander.plan, expander.context.source.slice(node.condition.span)
+    plan, condition = expander.plan, expander.context.words(node.condition.span)
     name = where.path(step)
     before, tails = expander.state.copy(), plan.tails
     expander.named_block(step, node.body, scope, where.either_way(f"{name}.then", condition))

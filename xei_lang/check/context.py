@@ -16,16 +16,17 @@ from xei_lang.check.registry import Registry
 from xei_lang.check.report import Reporter
 from xei_lang.check.scope import Usage
 from xei_lang.check.types import Types
-from xei_lang.diagnostics import Source
+from xei_lang.check.units import Unit, load_units
+from xei_lang.diagnostics import Source, Span
 from xei_lang.profiles.model import Profile
-from xei_lang.syntax.ast import Import, Module, Procedure
+from xei_lang.syntax.ast import Module, Name, Procedure
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Context:
     """What every part of the expansion uses."""
 
-    source: Source
+    units: Mapping[str, Unit]
     options: CheckOptions
     registry: Registry
     reporter: Reporter
@@ -36,30 +37,37 @@ class Context:
     clauses: Clauses
     givens: Givens
     binder: Binder
-    procedures: Mapping[str, Procedure]
+
+    def procedure(self, name: Name) -> Procedure | None:
+        """The procedure that a name means in the file where it stands."""
+        return self.units[name.span.file].procedures.get(name.id)
+
+    def words(self, span: Span) -> str:
+        """The words that a span covers."""
+        return self.units[span.file].source.slice(span)
 
 
 def make_context(module: Module, source: Source, profile: Profile, options: CheckOptions) -> Context:
-    """The checker's parts for one file and one profile. Of two procedures of one name, the first counts."""
+    """The checker's parts for a file, what it imports, and a profile. Of two procedures of one name the first
+    counts.
+    """
     registry = Registry.of(profile)
     reporter = Reporter(options.sources)
     places = Places(reporter)
     types = Types(registry, places, reporter)
     evaluator = Evaluator(registry, places, reporter, Budget(options.max_steps, reporter))
-    procedures = [item for item in module.items if isinstance(item, Procedure)]
-    names = tuple(item.name.id for item in procedures)
-    imports = any(isinstance(item, Import) for item in module.items)
+    usage = Usage()
+    units = load_units(module, source, options.files, reporter, usage)
     return Context(
-        source,
+        units,
         options,
         registry,
         reporter,
-        Usage(),
+        usage,
         types,
         evaluator,
-        Calls(registry, evaluator, types, reporter, procedures=names, imports=imports),
+        Calls(registry, evaluator, types, reporter, units),
         Clauses(evaluator, types, reporter),
         Givens(evaluator, types, reporter),
         Binder(registry, evaluator, types, reporter, options),
-        {item.name.id: item for item in reversed(procedures)},
     )

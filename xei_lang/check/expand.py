@@ -29,6 +29,7 @@ from xei_lang.syntax.ast import (
     Note,
     ObjectDecl,
     Param,
+    Procedure,
     ProfileDecl,
     Repeat,
     Require,
@@ -52,7 +53,8 @@ class Expander:
         self.state = state
         self.labels = Labels()
         self.loops: list[Span] = []
-        self.called: set[str] = set()
+        self.called: set[Procedure] = set()
+        self.running: list[Procedure] = []
         self._names: dict[Span, Mapping[Span, str]] = {}
         self._resources: dict[tuple[object, ...], tuple[str, ...]] = {}
 
@@ -173,7 +175,7 @@ class Expander:
 
     def _call(self, step: Step, call: Call, scope: Scope, where: Where) -> None:
         name = call.callee.id
-        procedure = self.context.procedures.get(name)
+        procedure = self.context.procedure(call.callee)
         if procedure is not None and name not in self.context.registry.skills:
             procedures.inline(self, step, call, procedure, scope=scope, where=where)
             return

@@ -109,8 +109,8 @@ def _too_many(expander: Expander, loop: For | Repeat, what: str) -> None:
     if plan.overflow is not None:
         return
     head = Span(loop.span.file, loop.span.start, loop.body.span.start)
-    shown = " ".join(expander.context.source.slice(head).split())
-    head = Span(head.file, head.start, head.start + len(expander.context.source.slice(head).rstrip()))
+    shown = " ".join(expander.context.words(head).split())
+    head = Span(head.file, head.start, head.start + len(expander.context.words(head).rstrip()))
     plan.full, plan.overflow = True, head
     reporter.report(
         "XEI0316",
@@ -127,7 +127,7 @@ def _regular(expander: Expander, loop: For | Repeat) -> bool:
     nodes = list(walk(loop.body))
     names |= {node.name.id for node in nodes if isinstance(node, Let)}
     for node in nodes:
-        if isinstance(node, If) or (isinstance(node, Call) and node.callee.id in expander.context.procedures):
+        if isinstance(node, If) or (isinstance(node, Call) and expander.context.procedure(node.callee)):
             return False
         head = node.iterable if isinstance(node, For) else node.count if isinstance(node, Repeat) else None
         if head is not None and any(isinstance(part, Name) and part.id in names for part in walk(head)):
@@ -139,5 +139,6 @@ def _word(expander: Expander, loop: For | Repeat, word: str) -> Span:
     """Where a word of the loop's head stands."""
     head = loop.iterable if isinstance(loop, For) else loop.count
     body: Block = loop.body
-    at = expander.context.source.text.find(word, head.span.end, body.span.start)
-    return Span(loop.span.file, at, at + len(word)) if at >= 0 else head.span
+    between = Span(loop.span.file, head.span.end, body.span.start)
+    at = expander.context.words(between).find(word)
+    return Span(between.file, between.start + at, between.start + at + len(word)) if at >= 0 else head.span

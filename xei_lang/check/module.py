@@ -9,7 +9,9 @@ from xei_lang.check.initial import initial_state
 from xei_lang.check.paths import check_labels, step_names
 from xei_lang.check.plan_builder import PlanBuilder, Where
 from xei_lang.check.procedures import check_alone, check_declarations
+from xei_lang.check.report import Reporter
 from xei_lang.check.scope import Scope
+from xei_lang.check.units import Unit
 from xei_lang.check.unsupported import refuse
 from xei_lang.check.values import POISON
 from xei_lang.diagnostics import Diagnostics, Label, Source, Span, has_errors
@@ -18,17 +20,14 @@ from xei_lang.profiles.model import Profile
 from xei_lang.syntax.ast import (
     Given,
     GivenContains,
-    Import,
     ImportTable,
     Module,
     ObjectDecl,
     Param,
-    Procedure,
     ProfileDecl,
     Protocol,
     Step,
 )
-
 
 LANGUAGE_VERSION = 1
 
@@ -40,6 +39,11 @@ def profile_name(module: Module) -> tuple[str, Span] | None:
             if isinstance(member, ProfileDecl):
                 return member.name.value, member.name.span
     return None
+
+
+def is_library(module: Module) -> bool:
+    """Whether a file holds procedures and no protocol."""
+    return not _protocols(module)
 
 
 def check_module(
@@ -54,17 +58,17 @@ def check_module(
     """
     context = make_context(module, source, profile, options)
     expander = Expander(context, PlanBuilder(options.max_steps), initial_state(context.registry))
-    scope = Scope(context.usage)
-    _check_version(module, expander)
-    _check_items(module, expander, scope)
-    protocols = _protocols(module)
-    plan = _protocol(protocols[0], expander, scope.child(), profile) if protocols else None
-    for procedure in context.procedures.values():
-        if procedure.name.id not in expander.called:
+    for unit in context.units.values():
+        _check_unit(unit, expander)
+    _one_protocol(module, context.reporter)
+    own, protocols = context.units[source.file], _protocols(module)
+    plan = _protocol(protocols[0], expander, own.scope.child(), profile) if protocols else None
+    for procedure in dict.fromkeys(own.procedures[item.name.id] for item in own.own):
+        if procedure not in expander.called:
             alone = Expander(context, PlanBuilder(options.max_steps), initial_state(context.registry))
-            check_alone(alone, procedure, scope)
+            check_alone(alone, procedure)
             expander.called |= alone.called
-    context.usage.warn(context.reporter)
+    context.usage.warn(context.reporter, source.file)
     diagnostics = context.reporter.diagnostics
     return (None if has_errors(diagnostics) else plan), diagnostics
 
@@ -86,13 +90,17 @@ def _check_version(module: Module, expander: Expander) -> None:
     )
 
 
-def _check_items(module: Module, expander: Expander, scope: Scope) -> None:
+def _check_unit(unit: Unit, expander: Expander) -> None:
     reporter = expander.context.reporter
-    for item in module.items:
-        if isinstance(item, Import | ImportTable):
-            refuse(reporter, item)
+    _check_version(unit.module, expander)
+    for item in unit.module.items:
         if isinstance(item, ImportTable):
-            scope.declare(item.name, "table", POISON, reporter)
+            refuse(reporter, item)
+            unit.scope.declare(item.name, "table", POISON, reporter)
+    check_declarations(expander, unit.own)
+
+
+def _one_protocol(module: Module, reporter: Reporter) -> None:
     first, *others = _protocols(module) or (None,)
     for other in others:
         assert first is not None
@@ -104,8 +112,6 @@ def _check_items(module: Module, expander: Expander, scope: Scope) -> None:
             labels=(Label(first.name.span, "the first one"),),
             help=("give each protocol a file of its own; what they share can be a `procedure`",),
         )
-    procedures = tuple(item for item in module.items if isinstance(item, Procedure))
-    check_declarations(expander, procedures)
 
 
 def _protocol(protocol: Protocol, expander: Expander, scope: Scope, profile: Profile) -> SkillPlan:

@@ -27,15 +27,15 @@ def inline(
 ) -> None:
     """Expand a procedure's body in place of its call, with the arguments as they are at this point."""
     name = procedure.name.id
-    expander.called.add(name)
-    if _too_deep(expander, call, where):
+    expander.called.add(procedure)
+    if _too_deep(expander, call, procedure, where):
         return
     given = match_arguments(call, _signature(procedure), expander.context.reporter)
     if given is None:
         for arg in call.args:
             expander.context.evaluator.value(arg.value, scope, ANY_WORD)
         given = dict[str, Arg]()
-    inner = scope.fresh()
+    inner = expander.context.units[procedure.span.file].scope.child()
     for formal in procedure.params:
         value = _actual(expander, formal, given, procedure, scope=scope, inner=inner)
         inner.declare(formal.name, "parameter", value, expander.context.reporter)
@@ -43,17 +43,20 @@ def inline(
     below = where.under(f"{where.path(step)}.", step_names(procedure.body))
     below = replace(below, origin=(*where.origin, frame), depth=where.depth + 1)
     outer, expander.labels = expander.labels, expander.labels.hide()
+    expander.running.append(procedure)
     with expander.context.reporter.inside(frame):
         expander.members(procedure.body, inner, below)
+    expander.running.pop()
     outer.reveal(expander.labels, step.label.id if step.label else None)
     expander.labels = outer
 
 
-def check_alone(expander: Expander, procedure: Procedure, scope: Scope) -> None:
+def check_alone(expander: Expander, procedure: Procedure) -> None:
     """Check a procedure that nothing calls, for any arguments that its parameters allow."""
     expander.plan = PlanBuilder(expander.plan.max_steps)
-    expander.called.add(procedure.name.id)
-    inner = scope.fresh()
+    expander.called.add(procedure)
+    expander.running = [procedure]
+    inner = expander.context.units[procedure.span.file].scope.child()
     for formal in procedure.params:
         inner.declare(formal.name, "parameter", _any(expander, formal, inner), expander.context.reporter)
     frame = Frame(procedure.name.id, procedure.name.span)
@@ -138,13 +141,14 @@ def _any(expander: Expander, formal: Param, inner: Scope) -> Val:
     return POISON
 
 
-def _too_deep(expander: Expander, call: Call, where: Where) -> bool:
+def _too_deep(expander: Expander, call: Call, procedure: Procedure, where: Where) -> bool:
     from xei_lang.check.expand import MAX_DEPTH
 
     reporter, name = expander.context.reporter, call.callee.id
-    running = [frame.procedure for frame in where.origin]
-    if name in running:
-        chain = " calls ".join(f"`{link}`" for link in (*running[running.index(name) :], name))
+    running = expander.running
+    if procedure in running:
+        links = [link.name.id for link in running[running.index(procedure) :]]
+        chain = " calls ".join(f"`{link}`" for link in (*links, name))
         reporter.report(
             "XEI0214",
             f"procedure `{name}` calls itself",

@@ -53,6 +53,11 @@ class Reporter:
             )
             self._found[key] = Diagnostic(code, message, span, label, labels + chain, notes, help, fix)
 
+    def keep(self, diagnostic: Diagnostic) -> None:
+        """Keep a diagnostic that another room made of a file, which has a span."""
+        assert diagnostic.span is not None
+        self._found.setdefault((diagnostic.span, diagnostic.code, ""), diagnostic)
+
     def rule(self, span: Span) -> str:
         """The note that says which line of a profile makes the rule; only the file where its text is not at
         hand.

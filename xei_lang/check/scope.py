@@ -39,10 +39,15 @@ class Usage:
         """Remember that it was used."""
         self._used.add(symbol.span)
 
-    def warn(self, reporter: Reporter) -> None:
-        """Report objects, parameters and variables that nothing uses; what is wrong itself is let be."""
+    def warn(self, reporter: Reporter, file: str) -> None:
+        """Report objects, parameters and variables of a file that nothing uses; what is wrong is let be."""
         for span, symbol in self._declared.items():
-            if span not in self._used and symbol.kind in _SHOULD_BE_USED and symbol.value is not POISON:
+            if (
+                span.file == file
+                and span not in self._used
+                and symbol.kind in _SHOULD_BE_USED
+                and symbol.value is not POISON
+            ):
                 reporter.report(
                     "XEI0501",
                     f"{symbol.kind} `{symbol.name}` is never used",
@@ -63,10 +68,6 @@ class Scope:
     def child(self) -> Scope:
         """The scope of a block inside this one."""
         return Scope(self._usage, self)
-
-    def fresh(self) -> Scope:
-        """The scope of a procedure's body: it sees what the file declares, nothing of its caller."""
-        return Scope(self._usage, self._outermost())
 
     def declare(self, name: Name, kind: SymbolKind, value: Val, reporter: Reporter) -> None:
         """Give a name its value; a second declaration in the same block is an error and keeps the first."""
@@ -95,12 +96,6 @@ class Scope:
                 return symbol
             scope = scope._parent
         return None
-
-    def _outermost(self) -> Scope:
-        scope = self
-        while scope._parent is not None:
-            scope = scope._parent
-        return scope
 
     def names(self) -> tuple[str, ...]:
         """Every name that can be used here."""

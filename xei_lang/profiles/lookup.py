@@ -24,6 +24,12 @@ def find_profile(name: str, start: Path, explicit: Path | None) -> Path | None:
     return None
 
 
+def only_profile(start: Path) -> Path | None:
+    """The profile of the nearest folder of profiles, if it holds just one."""
+    nearest = next((found for place in search_places(start, None) if (found := _profiles(place))), list[Path]())
+    return nearest[0] if len(nearest) == 1 else None
+
+
 def search_places(start: Path, explicit: Path | None) -> tuple[Path, ...]:
     """The folders that hold folders of profiles, in the order in which they are searched."""
     if explicit is not None:

@@ -1,0 +1,40 @@
+"""How later rooms get at other files: through a `Files` that they are given, so that they touch no disk."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from xei_lang.diagnostics import Source
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LoadedFile:
+    """The text of a file, and what tells it from all others however it was named."""
+
+    source: Source
+    identity: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Unusable:
+    """Why a file cannot be had: words that follow its name (`does not exist`), and what may help.
+
+    `outside` says that it would lie, or lies, outside of the project folder.
+    """
+
+    reason: str
+    outside: bool = False
+    help: tuple[str, ...] = ()
+
+
+class Files(Protocol):
+    """The files of the project that a protocol belongs to."""
+
+    def identity(self, file: str) -> str:
+        """What tells a file from all others, by the name that its `Source` carries."""
+        ...
+
+    def read(self, importing: str, path: str) -> LoadedFile | Unusable:
+        """The file that `path` means in the file `importing`."""
+        ...
