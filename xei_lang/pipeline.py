@@ -119,13 +119,19 @@ def _parse(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
 
 
 def _load_profile(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
-    """The profile that the protocol names, from its compiled form where that is current."""
-    from xei_lang.check import profile_name
+    """The profile that the protocol names, from its compiled form where that is current.
+
+    A file of procedures names none; where the project has only one, it is checked with that.
+    """
+    from xei_lang.check import is_library, profile_name
+    from xei_lang.profiles.lookup import only_profile
     from xei_lang.profiles.open import open_profile
 
     assert made.module is not None
-    named = profile_name(made.module)
-    profile, said = open_profile(named, Path(request.source.file), request.profile_folder, request.cache)
+    file, folder = Path(request.source.file), request.profile_folder
+    if folder is None and is_library(made.module):
+        folder = only_profile(file)
+    profile, said = open_profile(profile_name(made.module), file, folder, request.cache)
     return replace(made, profile=profile), said
 
 
@@ -133,6 +139,7 @@ def _check(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
     """`Module` to `SkillPlan`: names, types, roles, expansion."""
     from xei_lang.check import CheckOptions, check_module
     from xei_lang.profiles.sources import profile_sources
+    from xei_lang.syntax.project import ProjectFiles
 
     assert made.module is not None
     assert made.profile is not None
@@ -142,6 +149,7 @@ def _check(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
         open_bindings=request.open_bindings,
         max_steps=request.max_steps,
         sources=profile_sources(made.profile),
+        files=ProjectFiles(Path(request.source.file)),
     )
     plan, said = check_module(made.module, request.source, made.profile, options)
     return replace(made, plan=plan), said
