@@ -1,0 +1,93 @@
+"""What a page of docs/errors/ holds: its examples as a protocol, and changes to a copy of the bench's profile."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+FOLDER = ROOT / "docs" / "errors"
+BENCH = ROOT / "profiles" / "openarm_bench"
+NOT_RUN = "---\nexample: not run in tests\n---\n\n"
+EXAMPLE = "example.xei"
+PLAIN = 'protocol p {\n  profile "openarm_bench"\n  wait 1 s\n}\n'
+
+_BLOCK = re.compile(
+    r"(?:^In (?:a file )?`(?P<file>[\w./]+)`:\n\n)?^```(?P<language>[a-z]+)\n(?P<body>.*?)^```$", re.S | re.M
+)
+
+
+@dataclass(frozen=True)
+class Change:
+    """A change to a file of the profile, as a diff without line numbers: the first place that fits is meant."""
+
+    file: str
+    diff: str
+
+    def apply(self, profile: Path) -> None:
+        lines = self.diff.splitlines(keepends=True)
+        old = "".join(line[1:] for line in lines if line[0] != "+")
+        new = "".join(line[1:] for line in lines if line[0] != "-")
+        path = profile / self.file
+        text = path.read_text(encoding="utf-8")
+        assert old in text, f"{self.file} of the bench does not hold\n{old}"
+        path.write_text(text.replace(old, new, 1), encoding="utf-8")
+
+
+@dataclass(frozen=True)
+class Section:
+    """The example or the fix of a page."""
+
+    changes: tuple[Change, ...]
+    files: dict[str, str]
+    """Its `xei` blocks by their names, in their order; the last of them is the one that is checked."""
+    profile_lines: tuple[str, ...]
+    """Blocks of YAML or XML, which show lines as the bench has them."""
+
+    def write(self, folder: Path) -> Path:
+        """Write the profile and the protocol into a folder, and return the protocol."""
+        shutil.copytree(BENCH, folder / "profiles" / BENCH.name, ignore=shutil.ignore_patterns("*.py"))
+        for change in self.changes:
+            change.apply(folder / "profiles" / BENCH.name)
+        files = self.files or {EXAMPLE: PLAIN}
+        for name, text in files.items():
+            (folder / name).write_text(text, encoding="utf-8")
+        return folder / list(files)[-1]
+
+
+@dataclass(frozen=True)
+class Page:
+    code: str
+    title: str
+    is_run: bool
+    sections: dict[str, str]
+    related: tuple[str, ...]
+
+    def section(self, name: str) -> Section:
+        changes, files, lines = [], {}, []
+        for block in _BLOCK.finditer(self.sections[name]):
+            if block["language"] == "diff":
+                assert block["file"], f"{self.code}: a diff stands under a line that names its file"
+                changes.append(Change(block["file"], block["body"]))
+            elif block["language"] == "xei":
+                files[block["file"] or EXAMPLE] = block["body"]
+            elif block["language"] in ("yaml", "xml"):
+                lines.append(block["body"])
+        return Section(tuple(changes), files, tuple(lines))
+
+
+def read_page(path: Path) -> Page:
+    text = path.read_text(encoding="utf-8")
+    is_run = not text.startswith("---\n")
+    assert is_run or text.startswith(NOT_RUN), f"{path.name} has another front matter than {NOT_RUN!r}"
+    head, *parts = re.split(r"^## ", text.removeprefix(NOT_RUN), flags=re.M)
+    title = re.match(r"# (XEI\d{4}): (.*)\n\n\S", head)
+    assert title is not None, f"{path.name} begins with its code and title, and says what it is"
+    related = re.search(r"^Related: (.*)\.\n\Z", text, re.M)
+    sections = dict(part.split("\n", 1) for part in parts)
+    assert list(sections) == ["Why", "Example", "Fix"], f"{path.name} has {list(sections)}"
+    return Page(
+        title[1], title[2], is_run, sections, tuple(re.findall(r"XEI\d{4}", related[1] if related else ""))
+    )

@@ -1,0 +1,90 @@
+"""Every code has a page, and what the page shows is so: the example gives that code only, the fix none."""
+
+from __future__ import annotations
+
+import shlex
+from pathlib import Path
+
+import pytest
+
+from tests.docs.error_pages import BENCH, FOLDER, Page, Section, read_page
+from xei_lang.diagnostics import CATALOGUE, Diagnostics, Source
+from xei_lang.diagnostics.render.full import render_full
+from xei_lang.pipeline import ALL, FRONT, Request, compile_request
+
+FILES = sorted(FOLDER.glob("*.md"))
+PAGES = [read_page(file) for file in FILES]
+RUN = [page for page in PAGES if page.is_run]
+TO_GOALS = ALL[: [step.adds for step in ALL].index("graph") + 1]
+NOT_REACHED = {
+    "XEI0101", "XEI0102", "XEI0107", "XEI0109", "XEI0204", "XEI0321",
+    "XEI0705", "XEI0711", "XEI0715",
+}  # fmt: skip
+"""Codes before the motion whose example is no protocol on this bench: each page says why."""
+
+
+def test_every_code_has_a_page() -> None:
+    assert [file.stem for file in FILES] == sorted(CATALOGUE)
+
+
+def test_pages_have_the_titles_of_the_catalogue() -> None:
+    for file, page in zip(FILES, PAGES, strict=True):
+        assert (file.stem, CATALOGUE[file.stem].title) == (page.code, page.title)
+
+
+def test_related_codes_exist() -> None:
+    for page in PAGES:
+        assert page.code not in page.related
+        assert set(page.related) <= CATALOGUE.keys(), page.code
+
+
+def test_all_examples_before_motion_are_run() -> None:
+    not_run = {page.code for page in PAGES if not page.is_run and page.code < "XEI0800"}
+    assert not_run == NOT_REACHED
+    for page in RUN:
+        shown = page.section("Example")
+        assert shown.changes or shown.files, page.code
+
+
+@pytest.mark.parametrize("page", RUN, ids=lambda page: page.code)
+def test_the_example_gives_its_code_and_no_other(
+    page: Page, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert _codes(page, page.section("Example"), tmp_path, monkeypatch) == {page.code}
+
+
+@pytest.mark.parametrize("page", RUN, ids=lambda page: page.code)
+def test_the_fix_gives_none(page: Page, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    fix = page.section("Fix")
+    assert fix.changes or fix.files or fix.profile_lines
+    assert _codes(page, fix, tmp_path, monkeypatch) == set()
+    bench = [path.read_text(encoding="utf-8") for path in sorted(BENCH.rglob("*.*")) if path.suffix != ".py"]
+    for lines in fix.profile_lines:
+        assert any(lines in text for text in bench), f"the bench does not hold\n{lines}"
+
+
+def _codes(page: Page, section: Section, folder: Path, monkeypatch: pytest.MonkeyPatch) -> set[str]:
+    """The codes that are said; a first line `# xei compile FILE OPTIONS` compiles, as all examples of lowering do."""
+    path = section.write(folder)
+    monkeypatch.chdir(folder)
+    text = path.read_text(encoding="utf-8")
+    first = text.partition("\n")[0]
+    words = shlex.split(first.removeprefix("# ")) if first.startswith("# xei ") else []
+    compiles = words[1:2] == ["compile"] or page.code >= "XEI06"
+    bindings = tuple(
+        (name, value)
+        for flag, pair in zip(words, words[1:], strict=False)
+        if flag == "--bind"
+        for name, _, value in [pair.partition("=")]
+    )
+    source = Source(path.name, text)
+    request = Request(source, bindings=bindings, open_bindings=not compiles, strict="--strict" in words)
+    said = compile_request(request, TO_GOALS if compiles else FRONT).diagnostics
+    return {item.code for item in _told(said, page, source)}
+
+
+def _told(said: Diagnostics, page: Page, source: Source) -> Diagnostics:
+    """All but information about objects without a place, on pages that are about something else."""
+    told = tuple(item for item in said if item.severity != "info" or item.code == page.code)
+    print(render_full(told, {source.file: source}))
+    return told
