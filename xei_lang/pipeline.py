@@ -185,15 +185,18 @@ def _lower_goals(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostic
 
 
 def _plan(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
-    """`MotionGoalGraph` to `TimedPlan`."""
-    from xei_lang.motion.plan import RobotDescription, plan_motion
+    """`MotionGoalGraph` to `TimedPlan`; the graph changes its arms where the chosen ones cannot."""
+    from xei_lang.motion.either_arm import plan_with_either_arm
+    from xei_lang.motion.plan import RobotDescription
     from xei_lang.profiles.open import robot_texts
 
     assert made.profile is not None
+    assert made.plan is not None
     assert made.graph is not None
     assert made.world is not None
     report = request.progress
-    timed, said = plan_motion(
+    graph, timed, said = plan_with_either_arm(
+        made.plan,
         made.graph,
         made.world,
         made.profile,
@@ -201,7 +204,7 @@ def _plan(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
         request.seed,
         None if report is None else lambda done, total: report("motion", done, total),
     )
-    return replace(made, timed=timed), said
+    return replace(made, graph=graph, timed=timed), said
 
 
 def _verify(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:

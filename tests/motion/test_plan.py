@@ -161,12 +161,6 @@ def test_an_object_of_another_station_names_it() -> None:
     assert any("`bench_b`" in text for text in said.help)
 
 
-def test_the_wrong_arm_names_the_other_one() -> None:
-    _, world = bench()
-    said = refusal(take("bottle_1", "left"), world)
-    assert said.help == ("the right arm reaches it: say `arm=right`",)
-
-
 def test_a_hemmed_in_object_counts_what_its_grasps_touch() -> None:
     _, world = bench()
     around = {

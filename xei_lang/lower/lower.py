@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
+
 from xei_lang.diagnostics import Diagnostic, Diagnostics, has_errors
 from xei_lang.ir.goals import Confirm, MotionGoalGraph, Wait
 from xei_lang.ir.skill_plan import ObjectRef, Side, SkillPlan, Step
@@ -19,11 +22,14 @@ from xei_lang.profiles.model import Profile, SceneOrigin, SkillSpec
 from xei_lang.quantity import Quantity
 
 
-def lower(plan: SkillPlan, profile: Profile, world: World) -> tuple[MotionGoalGraph | None, Diagnostics]:
+def lower(
+    plan: SkillPlan, profile: Profile, world: World, arms: Mapping[str, Side] = MappingProxyType({})
+) -> tuple[MotionGoalGraph | None, Diagnostics]:
     """The goals of the plan in its partial order, after the scene origin motion; None where there are errors.
 
     Each mistake is reported once: after a step that cannot be lowered, later steps about the same objects are
-    passed over. The same plan, profile and world give the same graph, byte for byte.
+    passed over. `arms` gives steps, by id, another arm than the plan or this room chose: motion planning asks
+    for that where the first one cannot. The same arguments give the same graph, byte for byte.
     """
     scene = Scene.of(world, profile)
     assembly = Assembly(epochs=[scene.epoch])
@@ -33,7 +39,7 @@ def lower(plan: SkillPlan, profile: Profile, world: World) -> tuple[MotionGoalGr
         if forgotten.intersection(_objects(step)):
             continue
         try:
-            scene = _lower_step(assembly, plan, index, scene, profile)
+            scene = _lower_step(assembly, plan, index, scene, profile, arms.get(step.step_id))
         except Refusal as refusal:
             problems.append(refusal.diagnostic)
             forgotten = forgotten.union(_movable(step, profile))
@@ -63,7 +69,9 @@ def _station(profile: Profile, name: str) -> SceneOrigin | None:
     return next((item for item in profile.calibration.stations if item.name == name), None)
 
 
-def _lower_step(assembly: Assembly, plan: SkillPlan, index: int, scene: Scene, profile: Profile) -> Scene:
+def _lower_step(
+    assembly: Assembly, plan: SkillPlan, index: int, scene: Scene, profile: Profile, arm: Side | None
+) -> Scene:
     step = plan.steps[index]
     after = step.after or (STEP_ID,)
     spec = profile.bank.skill(step.skill) if step.kind == "skill" else None
@@ -71,7 +79,7 @@ def _lower_step(assembly: Assembly, plan: SkillPlan, index: int, scene: Scene, p
         drafts = (_statement(step, scene),)
         assembly.add(step.step_id, step.span, after=after, before=scene, drafts=drafts)
         return scene
-    task = _task(plan, index, spec, scene, profile)
+    task = _task(plan, index, spec, scene, profile, arm)
     drafts = expand(task)
     if task.scene.epoch.index > scene.epoch.index:
         drafts += _arrive(task)
@@ -86,7 +94,9 @@ def _arrive(task: Task) -> tuple[Draft, ...]:
     return arrival(task.scene, task.profile, station, task.spec.template) if station else ()
 
 
-def _task(plan: SkillPlan, index: int, spec: SkillSpec, scene: Scene, profile: Profile) -> Task:
+def _task(
+    plan: SkillPlan, index: int, spec: SkillSpec, scene: Scene, profile: Profile, arm: Side | None
+) -> Task:
     step = plan.steps[index]
     name = next(iter(_movable(step, profile)), "")
     ahead = destinations(plan, index, name, scene, profile) if name else ()
@@ -95,6 +105,8 @@ def _task(plan: SkillPlan, index: int, spec: SkillSpec, scene: Scene, profile: P
         if argument.type == "Arm":
             stated: Side | None = next((side for side in SIDES if step.arg(argument.name) == side), None)
             arms[argument.name] = Choice(stated, "") if stated else choose(name, ahead, scene, profile)
+            if arm is not None:
+                arms[argument.name] = Choice(arm, "the other arm was tried and cannot")
     return Task(profile, step, spec, scene, arms, name, ahead)
 
 

@@ -111,6 +111,7 @@ def _refused(graph: MotionGoalGraph, diagnostic: Diagnostic, planned: int) -> Re
 
 def _context(world: World, profile: Profile, description: RobotDescription, seed: int) -> Context:
     robot = load_robot(description.urdf_text, description.srdf_text)
+    robot = robot.narrowed(planning_limits(robot, profile))
     solvers: dict[Side, Solver] = {side: arm_solver(robot, side) for side in robot.arms}
     bare = collision_scene(robot, padding_m=profile.calibration.clearance_m)
     return Context(robot, bare, solvers, planning_limits(robot, profile), world, profile, seed)

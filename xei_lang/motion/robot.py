@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any
 from xml.etree import ElementTree
@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from xei_lang.ir.skill_plan import Side
+from xei_lang.ir.timed import JointLimit
 
 pin: Any = importlib.import_module("pinocchio")  # ships no type information
 
@@ -104,6 +105,14 @@ class Robot:
     def in_limits(self, q: Array, tolerance: float = 1e-9) -> bool:
         """Whether all joints of `q` (nq,) are within the URDF's limits."""
         return bool(np.all(q >= self.lower - tolerance) and np.all(q <= self.upper + tolerance))
+
+    def narrowed(self, limits: Mapping[str, JointLimit]) -> Robot:
+        """This robot with the ranges of the joints in `limits`: inverse kinematics stays within them."""
+        lower, upper = self.lower.copy(), self.upper.copy()
+        for name, limit in limits.items():
+            index = self.joint_names.index(name)
+            lower[index], upper[index] = limit.lower, limit.upper
+        return replace(self, lower=lower, upper=upper)
 
     def T_base_frame(self, q: Array, frame: str) -> Array:
         """Pose (4, 4) of a link or frame in base_link."""

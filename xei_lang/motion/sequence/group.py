@@ -31,7 +31,6 @@ from xei_lang.motion.sequence.transit import keeps_upright, plan_transit
 
 Array = NDArray[np.float64]
 
-MAX_BLOCKED_TRANSITS = 6
 MAX_GLANCES = 6
 DETOUR_FACTOR = 1.3
 DETOUR_S = 0.5
@@ -112,11 +111,11 @@ def _attempt(
         [np.ones(len(layer), dtype=bool) for layer in layers],
         [[] for _ in layers],
     )
-    return _search(context, group, search, start, ahead)
+    return _search(context, group, search, start, ahead, effort.blocked_transits)
 
 
 def _search(
-    context: Context, group: Group, search: Search, start: Snapshot, ahead: Ahead
+    context: Context, group: Group, search: Search, start: Snapshot, ahead: Ahead, most_blocked: int
 ) -> tuple[Motion, ...] | Failure:
     now = start.q[context.arm_indices(group.arm)]
     speeds = context.speeds(context.arm_joints(group.arm))
@@ -128,7 +127,7 @@ def _search(
         homeward = arm_speeds.travel_s(last.q[:, -1, 1:], ahead.configuration[None])[:, 0]
     failure: Failure | None = None
     blocked = 0
-    while blocked <= MAX_BLOCKED_TRANSITS:
+    while blocked <= most_blocked:
         run = cheapest(stages_of(now, search, homeward), transitions)
         if run is None:
             return failure or _unplaced(search, transitions)

@@ -33,15 +33,18 @@ _FACING_COST = 1.0
 
 @dataclass(frozen=True, slots=True)
 class Effort:
-    """How widely to look: slide heights, grasps wanted at each, configurations of each grasp."""
+    """How widely to look: slide heights, grasps wanted at each, configurations of each grasp, and how many
+    blocked transits are put up with.
+    """
 
     heights: int
     poses_per_height: int
     configurations_per_pose: int
+    blocked_transits: int
 
 
-LEAN = Effort(5, 8, 5)
-THOROUGH = Effort(13, 10_000, 20)
+LEAN = Effort(5, 8, 5, 4)
+THOROUGH = Effort(13, 10_000, 20, 2)
 
 
 @dataclass(frozen=True, slots=True)

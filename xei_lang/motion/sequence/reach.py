@@ -52,8 +52,8 @@ def nearest_reach(context: Context, rehearsal: Rehearsal) -> Reach:
 
 
 def reach_help(context: Context, rehearsal: Rehearsal) -> tuple[str, ...]:
-    """What would bring the chain into reach, by trying: another slide height, the other arm, each other
-    station.
+    """What would bring the chain into reach, by trying: another slide height, a place between for the other
+    arm to take the object from, each other station.
     """
     chain, poses = rehearsal.chain, chain_poses(rehearsal)
     heights = slide_heights(context, float(rehearsal.before.q[context.robot.slide_index]), THOROUGH)
@@ -61,9 +61,13 @@ def reach_help(context: Context, rehearsal: Rehearsal) -> tuple[str, ...]:
     height = _lowest_feasible(context, chain.arm, poses, heights)
     if height is not None:
         found.append(f"with the slide at {height * 1000:.0f} mm it is in reach: move the slide there first")
-    for side in sorted(context.solvers):
-        if side != chain.arm and _lowest_feasible(context, side, poses, heights) is not None:
-            found.append(f"the {side} arm reaches it: say `arm={side}`")
+    if chain.detach is not None:
+        for side in sorted(context.solvers):
+            if side != chain.arm and _lowest_feasible(context, side, poses, heights) is not None:
+                found.append(
+                    f"the {side} arm reaches this place: set `{chain.detach.object}` down where both arms"
+                    f" reach it, and pick it from there with `arm={side}`"
+                )
     found.extend(_stations(context, rehearsal, poses, heights))
     return tuple(found) or (
         "move it nearer to the robot, or add a station from which it is in reach to the calibration profile",

@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 
 SLACK = 0.5
 """Share of the bound that projected configurations keep: what lies between two of them may tilt further."""
-_MAX_CHECKS = 1_500
+_MAX_CHECKS = 1_000
 _ITERATIONS = 8
 _SLIDE_ROOM_M = 0.1
 _SAMPLE_RAD = 0.05
