@@ -74,7 +74,7 @@ class CarryPose(Record):
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Placeholder(Record):
-    """Something that nobody has measured yet: which item of the calibration profile, and how to measure it."""
+    """Something that nobody has measured yet: the item of the calibration profile, and how to measure it."""
 
     item: str
     measure: str
