@@ -1,4 +1,4 @@
-"""What a page of docs/errors/ holds: its examples as a protocol, and changes to a copy of the bench's profile."""
+"""What a page of docs/errors/ holds: examples as protocols, and changes to a copy of the bench's profile."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _BLOCK = re.compile(
 
 @dataclass(frozen=True)
 class Change:
-    """A change to a file of the profile, as a diff without line numbers: the first place that fits is meant."""
+    """A change to a file of the profile, a diff without line numbers: the first place that fits is meant."""
 
     file: str
     diff: str

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shlex
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -64,7 +65,7 @@ def test_the_fix_gives_none(page: Page, tmp_path: Path, monkeypatch: pytest.Monk
 
 
 def _codes(page: Page, section: Section, folder: Path, monkeypatch: pytest.MonkeyPatch) -> set[str]:
-    """The codes that are said; a first line `# xei compile FILE OPTIONS` compiles, as all examples of lowering do."""
+    """The codes that are said. A first line `# xei compile FILE OPTIONS` compiles, as lowering does."""
     path = section.write(folder)
     monkeypatch.chdir(folder)
     text = path.read_text(encoding="utf-8")
@@ -73,7 +74,7 @@ def _codes(page: Page, section: Section, folder: Path, monkeypatch: pytest.Monke
     compiles = words[1:2] == ["compile"] or page.code >= "XEI06"
     bindings = tuple(
         (name, value)
-        for flag, pair in zip(words, words[1:], strict=False)
+        for flag, pair in pairwise(words)
         if flag == "--bind"
         for name, _, value in [pair.partition("=")]
     )

@@ -181,3 +181,18 @@ _ENTRIES = {
 }
 
 CATALOGUE: Mapping[str, Entry] = MappingProxyType(_ENTRIES)
+
+RANGES: Mapping[str, str] = MappingProxyType(
+    {
+        "XEI01": "files and syntax",
+        "XEI02": "names and binding",
+        "XEI03": "types, units and arguments",
+        "XEI04": "state and time",
+        "XEI05": "warnings",
+        "XEI06": "profiles and world",
+        "XEI07": "lowering and operation parameters",
+        "XEI08": "motion",
+        "XEI09": "running, bundles and traces",
+    }
+)
+"""What the codes of a range are about, by their first five characters."""
