@@ -6,8 +6,10 @@ left the place in the indentation.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Literal
 
 from xei_lang.syntax.layout import begins_line, indent, looks_like_statement
@@ -22,22 +24,30 @@ _LINES_FOR_EACH = 8
 
 @dataclass(frozen=True, slots=True)
 class BraceFault:
-    """A `}` is missing before `tokens[index]`, or the one there is too many.
+    """A `}` is missing before `tokens[index]`, the one there is too many, or a `{` is missing before it.
 
     `opener` is the open brace that is meant, None where a line only ought to have had one.
     """
 
-    kind: Literal["missing", "extra"]
+    kind: Literal["missing", "extra", "opening"]
     index: int
     opener: Token | None
     indent: int
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class _Open:
+    """A block that is open: the indentation and number of its line, its brace, and how far its lines stand in.
+
+    `fault` is there for a block whose brace is missing; `loose` if only the indentation says that it exists.
+    """
+
     indent: int
     line: int
     token: Token | None
+    inner: int = -1
+    fault: BraceFault | None = None
+    loose: bool = False
 
 
 def find_brace_faults(tokens: Sequence[Token], text: str) -> tuple[BraceFault, ...]:
@@ -50,9 +60,11 @@ def find_brace_faults(tokens: Sequence[Token], text: str) -> tuple[BraceFault, .
         if pair is not None:
             missing.remove(pair)
             extra.remove(fault)
-    faults = tuple(missing if search.balance > 0 else extra)
-    most = min(abs(search.balance), max(_FEW, search.lines // _LINES_FOR_EACH))
-    return faults if len(faults) <= most else ()
+    faults = missing if search.balance > 0 else extra
+    if len(faults) > abs(search.balance):
+        faults = []
+    faults = sorted([*faults, *search.openings], key=lambda fault: fault.index)
+    return tuple(faults) if len(faults) <= max(_FEW, search.lines // _LINES_FOR_EACH) else ()
 
 
 class _Search:
@@ -63,8 +75,10 @@ class _Search:
         self._text = text
         self._open: list[_Open] = []
         self._depth = 0
+        self._unit = 0
         self.missing: list[BraceFault] = []
         self.extra: list[BraceFault] = []
+        self.openings: list[BraceFault] = []
         self.lines = 0
         self.balance = 0
         """Open braces less closing ones, with those counted that a header ought to have."""
@@ -73,6 +87,9 @@ class _Search:
         tokens = self._tokens
         starts = [i for i in range(len(tokens)) if begins_line(tokens, i, self._text)]
         self.lines = len(starts)
+        widths = [indent(tokens[i], self._text) for i in starts]
+        steps = Counter(inner - outer for outer, inner in pairwise(widths) if inner > outer)
+        self._unit = min(steps, key=lambda step: (-steps[step], step), default=0)
         for number, begin in enumerate(starts):
             end = starts[number + 1] if number + 1 < len(starts) else len(tokens)
             self._line(begin, end, number)
@@ -82,10 +99,13 @@ class _Search:
         first = tokens[begin]
         width = 0 if first.kind == END else indent(first, self._text)
         begins = looks_like_statement(tokens, begin) or first.text in ("{", "}")
+        if first.text == "else" and tokens[begin - 1].text != "}":
+            width = self._lost_before_else(begin, width)
         if begins or first.kind == END:
             self._depth = 0
         if self._depth == 0 and (begins or first.kind == END):
             self._dedent(begin, width, first)
+            self._stands_in(begin, width, number)
         header = self._lost_opening(begin, end, width)
         if header == "inline":
             self._push(width, number, None)
@@ -93,6 +113,23 @@ class _Search:
             self._token(index, begin, width, number)
         if header == "below":
             self._push(width, number, None)
+            self.openings.append(BraceFault("opening", end, None, width))
+
+    def _lost_before_else(self, index: int, width: int) -> int:
+        """Close the block that an `else` follows; gives the indentation of that block."""
+        while self._open and self._open[-1].indent > width:
+            self._missing(index)
+        if not self._open:
+            return width
+        width = self._open[-1].indent
+        self._missing(index)
+        return width
+
+    def _missing(self, index: int) -> None:
+        opened = self._open.pop()
+        if not opened.loose:
+            place = self._where(index, opened)
+            self.missing.append(BraceFault("missing", place, opened.token, opened.indent))
 
     def _dedent(self, index: int, width: int, first: Token) -> None:
         """Close what the indentation of a line says is closed."""
@@ -100,8 +137,18 @@ class _Search:
         if first.kind == END:
             least = 0
         while self._open and self._open[-1].indent >= least:
-            opened = self._open.pop()
-            self.missing.append(BraceFault("missing", self._where(index, opened), opened.token, opened.indent))
+            self._missing(index)
+
+    def _stands_in(self, index: int, width: int, number: int) -> None:
+        """Open a block where a line stands further in than those before it, if nothing else explains that."""
+        if not self._open or self._tokens[index].text in ("{", "}"):
+            return
+        top = self._open[-1]
+        if top.inner < 0:
+            top.inner = min(width, top.indent + self._unit) if width - top.indent == 2 * self._unit else width
+        if width > top.inner:
+            fault = BraceFault("opening", index, None, top.inner)
+            self._open.append(_Open(top.inner, number, None, width, fault, loose=True))
 
     def _where(self, index: int, opened: _Open) -> int:
         """Before the line; within the line of the open brace if all of its block is there, as at its `else`."""
@@ -139,7 +186,10 @@ class _Search:
             doubled = self._tokens[index - 1].text == "}" and top is not None and top.line != number
             fits = top is not None and not doubled
         if fits:
-            self._open.pop()
+            opened = self._open.pop()
+            if opened.loose and opened.fault is not None:
+                self.openings.append(opened.fault)
+                self.balance += 1
         else:
             self.extra.append(BraceFault("extra", index, None, width))
 
@@ -156,6 +206,10 @@ class _Search:
             return ""
         if "}" in words:
             return "inline"
-        if end >= len(tokens) or tokens[end].kind == END or tokens[end].text == "{":
+        if end >= len(tokens) or tokens[end].kind == END:
             return ""
-        return "below" if indent(tokens[end], self._text) > width else ""
+        below = indent(tokens[end], self._text)
+        if tokens[end].text == "}":
+            return "below" if below == width else ""
+        stands = words[0] == "parallel" if tokens[end].text == "{" else looks_like_statement(tokens, end)
+        return "below" if stands and below > width else ""

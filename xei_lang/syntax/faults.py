@@ -9,7 +9,6 @@ from typing import Any
 from xei_lang.diagnostics import Diagnostic, Edit, Fix, Label, Source, Span
 from xei_lang.syntax.braces import BraceFault
 from xei_lang.syntax.habits import Habit
-from xei_lang.syntax.layout import begins_line
 from xei_lang.syntax.lexer import Token
 from xei_lang.syntax.repairs import Repair
 from xei_lang.syntax.stack import Machine, Stack
@@ -45,20 +44,20 @@ _MOST_NAMED = 4
 
 @dataclass(frozen=True, slots=True)
 class Site:
-    """A token that cannot follow: the machine as it was, what stands before and behind, and the likely mend."""
+    """A token that cannot follow: the machine as it was, what stands before, and the likely mend."""
 
     machine: Machine
     stack: Stack
     before: tuple[Token, ...]
-    tokens: Sequence[Token]
-    at: int
+    token: Token
+    begins_line: bool
     opened: tuple[Token, Any] | None
     repair: Repair | None
 
 
 def explain(source: Source, site: Site) -> Diagnostic:
     """The diagnostic for a token that cannot stand where it stands."""
-    token, before = site.tokens[site.at], site.before
+    token, before = site.token, site.before
     opened = site.opened[0] if site.opened else None
     slip = _slip(source, site)
     if slip is not None:
@@ -91,6 +90,10 @@ def explain_brace(source: Source, fault: BraceFault, tokens: Sequence[Token]) ->
         fix = Fix("unsafe", (Edit(span, ""),))
         return Diagnostic("XEI0104", "this `}` closes nothing", span, "one too many", fix=fix)
     end = tokens[fault.index - 1].end
+    if fault.kind == "opening":
+        message = f"a `{{` is missing after {_quoted(tokens[fault.index - 1].text)}"
+        fix = Fix("unsafe", (Edit(Span(file, end, end), " {"),))
+        return Diagnostic("XEI0104", message, Span(file, end, end), "expected `{`", fix=fix)
     opener = fault.opener
     labels = (Label(Span(file, opener.start, opener.end), "opened here"),) if opener else ()
     if token.kind == END and opener:
@@ -160,18 +163,19 @@ def _place(source: Source, site: Site) -> Span:
 
     A line that breaks off is the place of the mistake, not the good line below it.
     """
-    token, before, repair = site.tokens[site.at], site.before, site.repair
-    if token.kind == END or (before and begins_line(site.tokens, site.at, source.text)):
+    token, before = site.token, site.before
+    if token.kind == END or (before and site.begins_line):
         end = before[-1].end if before else 0
-        if token.kind == END or _lacks(site, repair):
+        if token.kind == END or _lacks(site):
             return Span(source.file, end, end)
     return Span(source.file, token.start, token.end)
 
 
-def _lacks(site: Site, repair: Repair | None) -> bool:
+def _lacks(site: Site) -> bool:
     """Whether it is the token before the wrong one that something is missing behind."""
     if site.machine.shift(site.stack, "WAIT") or site.machine.shift(site.stack, "PROTOCOL"):
         return False
+    repair = site.repair
     if repair is not None and repair.back == 0:
         return repair.kind == "insert"
     return repair is not None or site.before[-1].text not in (",", "(", "[")

@@ -7,9 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from xei_lang.diagnostics import did_you_mean
 from xei_lang.syntax.lexer import WORD, Token
 
 _TAB = 8
+_OPERANDS = frozenset({WORD, "STRING", "NUMBER", "QUANTITY"})
 _BEGINNINGS = frozenset(
     "wait start await stop leave pause keep measure confirm do parallel for repeat if let require unmapped "
     "note profile param object given protocol procedure import".split()
@@ -37,6 +39,15 @@ def looks_like_statement(tokens: Sequence[Token], index: int) -> bool:
     if following in ("=", ",", ".", ")", "]"):
         return False
     return token.text in _BEGINNINGS or following in ("(", ":")
+
+
+def is_nearly_statement(tokens: Sequence[Token], index: int) -> bool:
+    """Whether a word is nearly one that a statement begins with, and what follows is no operator on it."""
+    token = tokens[index]
+    if token.kind != WORD or index + 1 >= len(tokens):
+        return False
+    follows = tokens[index + 1].kind in _OPERANDS or tokens[index + 1].text == "{"
+    return follows and bool(did_you_mean(token.text, _BEGINNINGS))
 
 
 def line_end(text: str, position: int) -> int:

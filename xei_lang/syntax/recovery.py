@@ -11,24 +11,32 @@ driver then builds the tree of what remains. In this order:
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_left
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from xei_lang.diagnostics import Diagnostic, Diagnostics, Source, Span
 from xei_lang.syntax.braces import find_brace_faults
 from xei_lang.syntax.faults import Site, explain, explain_brace, explain_habit, too_many
 from xei_lang.syntax.habits import Habit, find_habit
-from xei_lang.syntax.layout import begins_line, line_end, looks_like_statement
-from xei_lang.syntax.lexer import COMMENT, Scanner, Token
-from xei_lang.syntax.repairs import Repair, find_repair
+from xei_lang.syntax.layout import (
+    begins_line,
+    indent,
+    is_nearly_statement,
+    line_end,
+    looks_like_statement,
+)
+from xei_lang.syntax.lexer import COMMENT, STRAY, Scanner, Token
+from xei_lang.syntax.repairs import LOOK, Repair, find_repair
 from xei_lang.syntax.stack import Machine, Stack
 from xei_lang.syntax.tables import END
 
 MAX_FAULTS = 100
 """After so many the rest of the file is left unread: they have a cause of their own, such as a wrong file."""
 
-_LOOK = 6
+_BRACE = re.compile(r"\s*([{}])\s*(#.*)?$")
 _STATEMENT, _ITEM = "WAIT", "PROTOCOL"
 
 
@@ -69,7 +77,7 @@ class _Recovery:
         self._scanner = scanner
         scanned = list(scanner.tokens(source.text))
         self._comments = [token for token in scanned if token.kind == COMMENT]
-        self._tokens = [token for token in scanned if token.kind != COMMENT]
+        self._tokens = [part for token in scanned if token.kind != COMMENT for part in _parts(token)]
         self._at = 0
         self._done: list[_Done] = []
         self._stack = machine.start
@@ -78,6 +86,7 @@ class _Recovery:
         self._damaged: list[Span] = []
         self._quiet_lines: set[int] = set()
         self._quiet_at = -1
+        self._doubtful = -1
 
     def run(self) -> Recovered:
         self._mend_braces()
@@ -98,10 +107,18 @@ class _Recovery:
     def _recovered(self, *, whole: bool) -> Recovered:
         tokens = None
         if whole:
-            taken = [done.token for done in self._done]
-            tokens = tuple(sorted((*taken, *self._comments), key=lambda token: token.start))
+            tokens = tuple(self._with_comments())
         found = sorted(self._found, key=lambda diagnostic: diagnostic.span.start if diagnostic.span else 0)
         return Recovered(tokens, tuple(found), tuple(self._damaged))
+
+    def _with_comments(self) -> Iterator[Token]:
+        waiting = iter(self._comments)
+        comment = next(waiting, None)
+        for done in self._done:
+            while comment is not None and comment.start < done.token.start:
+                yield comment
+                comment = next(waiting, None)
+            yield done.token
 
     # ---- taking and giving back ----
 
@@ -132,12 +149,16 @@ class _Recovery:
     def _mend_braces(self) -> None:
         faults = find_brace_faults(self._tokens, self._text)
         for fault in reversed(faults):
-            self._report(explain_brace(self._source, fault, self._tokens))
+            said = explain_brace(self._source, fault, self._tokens)
+            token = self._tokens[fault.index]
+            elsewhere = token.kind == END or (said.span is not None and said.span.start == token.start)
+            self._report(said, quieten=fault.kind != "missing" or not elsewhere)
             if fault.kind == "extra":
                 del self._tokens[fault.index]
             else:
                 place = self._tokens[fault.index - 1].end
-                self._tokens.insert(fault.index, Token("RBRACE", "}", place, place))
+                kind, sign = ("LBRACE", "{") if fault.kind == "opening" else ("RBRACE", "}")
+                self._tokens.insert(fault.index, Token(kind, sign, place, place))
         if faults:
             self._damaged.append(Span(self._source.file, 0, len(self._text)))
 
@@ -147,27 +168,45 @@ class _Recovery:
         """Report the token that cannot follow and get past it; False where nothing follows any more."""
         before = tuple(done.token for done in self._done[-8:])
         token = self._tokens[self._at]
-        quiet = self._at == self._quiet_at or self._is_quiet(token)
+        quiet = self._at == self._quiet_at or self._is_quiet(token) or self._in_doubt()
+        pairs = [(done.token, done.before) for done in self._done[-4:]]
+        repair = find_repair(
+            self._machine, self._scanner, self._text, pairs, self._stack, self._tokens, self._at
+        )
         habit = find_habit(list(before), token, self._text)
-        if habit is not None:
+        if habit is not None and not (repair is not None and repair.whole and not self._reaches(habit, LOOK)):
             if not quiet and not self._is_quiet(habit):
                 self._report(explain_habit(self._source, habit), quieten=False)
             if habit.mend is not None and self._follow(habit):
                 return True
             self._quiet_lines.add(self._source.line_number(token.start))
             quiet = True
-        pairs = [(done.token, done.before) for done in self._done[-4:]]
-        repair = find_repair(
-            self._machine, self._scanner, self._text, pairs, self._stack, self._tokens, self._at
-        )
         if not quiet:
-            site = Site(self._machine, self._stack, before, self._tokens, self._at, self._opened, repair)
-            said = explain(self._source, site)
+            said = explain(self._source, self._site(before, repair))
             if said.span is None or not self._line_is_quiet(said.span.start):
                 self._report(said)
+        self._doubtful = token.start if repair is None or not repair.whole else self._doubtful
         if repair is not None and self._apply(repair):
             return True
         return self._leave_out_argument() or self._leave_out()
+
+    def _site(self, before: tuple[Token, ...], repair: Repair | None) -> Site:
+        """Where the mistake is: at the wrong token, or at the line break that lacks something before it."""
+        stack, opened, index = self._stack, self._opened, self._at
+        if repair is not None and repair.kind == "insert" and repair.back:
+            done = self._done[len(self._done) - repair.back]
+            follows = done.token.start and len(before) > repair.back
+            if follows and "\n" in self._text[before[-repair.back - 1].end : done.token.start]:
+                at_break = replace(repair, back=0)
+                earlier = before[: -repair.back]
+                return Site(self._machine, done.before, earlier, done.token, True, done.opened, at_break)
+        first = begins_line(self._tokens, index, self._text)
+        return Site(self._machine, stack, before, self._tokens[index], first, opened, repair)
+
+    def _in_doubt(self) -> bool:
+        """Whether the statement that was begun holds a mistake that was not wholly mended."""
+        length = self._statement_start()
+        return length < len(self._done) and self._done[length].token.start <= self._doubtful
 
     def _is_quiet(self, place: Token | Habit) -> bool:
         return self._line_is_quiet(place.start)
@@ -189,19 +228,30 @@ class _Recovery:
 
     # ---- 2 and 3: mends that keep the statement ----
 
-    def _follow(self, habit: Habit) -> bool:
-        """Put what was meant in the place of what was written, if the text then goes on at all."""
+    def _mended(self, habit: Habit) -> tuple[int, tuple[Token, ...], list[Token]]:
+        """How many tokens stay before a habit, what is meant by it, and what comes behind."""
         length = bisect_left(self._done, habit.start, key=lambda done: done.token.start)
         mended = tuple(
             replaced._replace(start=habit.start, end=habit.end)
             for replaced in self._scanner.tokens(habit.mend or "")
             if replaced.kind not in (END, COMMENT)
         )
-        rest = self._tokens_from(max(habit.end, habit.through))
-        base = self._done[length].before if length < len(self._done) else self._stack
-        window = (*mended, *rest[:2])
-        if self._machine.run(base, window, 0, len(window))[1] <= len(mended) - (not rest[1:]):
+        return length, mended, self._tokens_from(max(habit.end, habit.through))
+
+    def _reaches(self, habit: Habit, most: int) -> bool:
+        """Whether the text follows the grammar behind a habit's mend, for so many tokens."""
+        if habit.mend is None:
             return False
+        length, mended, rest = self._mended(habit)
+        base = self._done[length].before if length < len(self._done) else self._stack
+        window = (*mended, *rest[:most])
+        return self._machine.run(base, window, 0, len(window))[1] == len(window)
+
+    def _follow(self, habit: Habit) -> bool:
+        """Put what was meant in the place of what was written, if the text then goes on at all."""
+        if not self._reaches(habit, 1):
+            return False
+        length, mended, rest = self._mended(habit)
         self._hurt(habit.start, habit.end)
         self._give_back(length)
         self._tokens[self._at :] = ()
@@ -284,7 +334,17 @@ class _Recovery:
             if self._goes_on(base, index):
                 self._skip(length, index)
                 return self._put_in(header)
+            if self._stands_outside(base, index):
+                self._skip(length, index)
+                brace = self._tokens[index]
+                opening = Token("LBRACE", "{", brace.start, brace.start)
+                return self._put_in((*header, *self._block_header(length, base, brace), opening))
             if self._tokens[index].text == "{":
+                alone = index > self._at and begins_line(self._tokens, index, self._text)
+                if alone and self._machine.shift(self._stack, _STATEMENT) is not None:
+                    self._skip(len(self._done), index)
+                    self._quiet_at = -1
+                    return True
                 block = self._block_header(length, stack, self._tokens[index])
                 self._skip(length, index)
                 return self._put_in((*header, *block))
@@ -296,10 +356,21 @@ class _Recovery:
         if token.kind == END:
             return self._machine.step(stack, token) is not None
         if token.text != "}" and not (
-            begins_line(self._tokens, index, self._text) and looks_like_statement(self._tokens, index)
+            begins_line(self._tokens, index, self._text)
+            and (looks_like_statement(self._tokens, index) or is_nearly_statement(self._tokens, index))
         ):
             return False
         return self._machine.run(stack, self._tokens, index, 1)[1] == 1
+
+    def _stands_outside(self, stack: Stack, index: int) -> bool:
+        """Whether a statement stands outside of all definitions, as behind a brace that closes too early."""
+        tokens = self._tokens
+        return (
+            self._machine.shift(stack, _ITEM) is not None
+            and begins_line(tokens, index, self._text)
+            and indent(tokens[index], self._text) > 0
+            and looks_like_statement(tokens, index)
+        )
 
     def _statement_start(self) -> int:
         """How many tokens stand before the statement or definition that was begun."""
@@ -325,10 +396,13 @@ class _Recovery:
         return tuple(header) if lost == 1 else ()
 
     def _block_header(self, length: int, stack: Stack, brace: Token) -> tuple[Token, ...]:
-        """What a block can stand behind: `do`, or at the top of a file the words of a definition."""
+        """What a block can stand behind, and an `else` behind it; at the top of a file a definition's words."""
         at = brace.start
-        if self._machine.shift(stack, "DO") is not None:
-            return (Token("DO", "do", at, at),)
+        index = bisect_left(self._tokens, brace.end, lo=self._at, key=lambda token: token.start)
+        if self._tokens[index].text == "{" and self._machine.shift(stack, "PARALLEL") is not None:
+            return (Token("PARALLEL", "parallel", at, at),)
+        if self._machine.shift(stack, "IF") is not None:
+            return (Token("IF", "if", at, at), Token("TRUE", "true", at, at))
         name = Token("NAME", f"left_out_{at}", at, at)
         words = [done.token.text for done in self._done[length:]]
         if words[:1] == ["protocol"]:
@@ -348,6 +422,19 @@ class _Recovery:
             if not self._put_in((Token("RBRACE", "}", end.start, end.start),)):
                 return False
         return self._machine.step(self._stack, end) is not None
+
+
+def _parts(token: Token) -> tuple[Token, ...]:
+    """A text that is not closed gives back the brace at the end of its line, which likely is none of it."""
+    if token.kind != STRAY or token.text[0] != '"' or (match := _BRACE.search(token.text, 1)) is None:
+        return (token,)
+    kind = "LBRACE" if match[1] == "{" else "RBRACE"
+    place = token.start + match.start(1)
+    text = token.text[: match.start()]
+    return (
+        token._replace(text=text, end=token.start + len(text)),
+        Token(kind, match[1], place, place + 1),
+    )
 
 
 def _braces(opened: Opened) -> int:

@@ -6,16 +6,17 @@ What is tried is ranked by how far the text then follows the grammar, and after 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from xei_lang.diagnostics import did_you_mean
 from xei_lang.syntax.layout import begins_line, looks_like_statement
-from xei_lang.syntax.lexer import STRAY, WORD, Scanner, Token
+from xei_lang.syntax.lexer import COMMENT, STRAY, WORD, Scanner, Token
 from xei_lang.syntax.stack import Machine, Stack
 from xei_lang.syntax.tables import END, Tables
 
-_LOOK = 12
+LOOK = 12
+"""How many tokens further a text must follow the grammar for a repair to be as good as any."""
 _ENOUGH = 3
 _BACK = 3
 _SIGNS = frozenset("()[]{}:=,.;")
@@ -28,7 +29,7 @@ _WORD_COST, _NAME_COST, _OTHER_COST = 3, 3, 5
 class Repair:
     """Take back `back` tokens, put `tokens` in their place, and leave out `drop` of those that come."""
 
-    kind: Literal["insert", "delete", "replace"]
+    kind: Literal["insert", "delete", "replace", "swap"]
     back: int
     tokens: tuple[Token, ...]
     drop: int
@@ -37,6 +38,8 @@ class Repair:
     """The token that is put in, left out, or replaced."""
     meant: str = ""
     """What was probably meant in the place of `blamed`."""
+    whole: bool = False
+    """Whether the text follows the grammar behind it as far as was looked."""
 
 
 def find_repair(
@@ -57,14 +60,14 @@ def find_repair(
     for candidate in _candidates(machine, scanner, text, done, stack, tokens, at):
         base = done[len(done) - candidate.back][1] if candidate.back else stack
         begin = at + candidate.drop
-        window = (*candidate.tokens, *tokens[begin : begin + _LOOK])
+        window = (*candidate.tokens, *tokens[begin : begin + LOOK])
         reached = machine.run(base, window, 0, len(window))[1]
-        gain = reached - len(candidate.tokens) + (_LOOK if reached == len(window) else 0)
+        gain = reached - len(candidate.tokens) + (LOOK if reached == len(window) else 0)
         if gain < min(_ENOUGH, len(tokens) - begin):
             continue
         rank = (gain, -candidate.cost)
         if best is None or rank > best:
-            best, found = rank, candidate
+            best, found = rank, replace(candidate, whole=reached == len(window))
     return found
 
 
@@ -79,14 +82,19 @@ def _candidates(
 ) -> Iterator[Repair]:
     wrong = tokens[at]
     if wrong.kind == STRAY and wrong.text[0] == '"':
-        yield from _closed_texts(scanner, text, wrong)
+        yield from _closed_texts(scanner, text, wrong, done)
         return
     first = begins_line(tokens, at, text) if at else True
     opens_statement = first and looks_like_statement(tokens, at)
     yield from _insertions(machine, stack, (), wrong, 0, first)
-    if wrong.kind != END and not opens_statement:
+    if wrong.kind != END and not opens_statement and wrong.text not in ("{", "}"):
         yield Repair("delete", 0, (), 1, 2, wrong)
         yield from _replacements(machine, stack, (), wrong, 0)
+        following = tokens[at + 1]
+        if following.kind != END and following.text not in ("{", "}"):
+            yield Repair("swap", 0, _swapped(wrong, following), 2, 3, wrong)
+        if done and done[-1][0].text not in ("{", "}"):
+            yield Repair("swap", 1, _swapped(done[-1][0], wrong), 1, 4, wrong)
     for back in range(1, min(_BACK, len(done)) + 1):
         old, before = done[len(done) - back]
         if old.text in ("{", "}") or old.start == old.end:
@@ -132,17 +140,41 @@ def _replacements(
                 yield Repair("replace", back, (new, *later), drop, 3 + back, token, sign)
 
 
-def _closed_texts(scanner: Scanner, text: str, wrong: Token) -> Iterator[Repair]:
-    """A text that is not closed may end before any bracket or comma, or with its line."""
+def _closed_texts(
+    scanner: Scanner, text: str, wrong: Token, done: Sequence[tuple[Token, Stack]]
+) -> Iterator[Repair]:
+    """A text that is not closed may end before any bracket or comma, or with its line.
+
+    Or it is its first quote that is missing, before one of the last words.
+    """
     cuts = [index for index, char in enumerate(wrong.text) if index and char in ",)]}"][:8]
     for cost, cut in enumerate((*reversed(cuts), len(wrong.text))):
-        end = wrong.start + len(wrong.text[:cut].rstrip())
-        closed = Token("STRING", wrong.text[:cut].rstrip() + '"', wrong.start, end)
-        rest: list[Token] = []
-        for token in scanner.tokens(text[: wrong.end], wrong.start + cut):
-            if token.kind != END:
-                rest.append(token)
+        written = wrong.text[:cut].rstrip()
+        closed = _text(written + '"', wrong.start, wrong.start + len(written))
+        rest = _rest(scanner, text, wrong, cut)
         yield Repair("replace", 0, (closed, *rest), 1, cost, wrong)
+    rest = _rest(scanner, text, wrong, 1)
+    yield Repair("delete", 0, rest, 1, 9, wrong)
+    for back in range(1, min(_BACK, len(done)) + 1):
+        first = done[len(done) - back][0]
+        if "\n" in text[first.start : wrong.start]:
+            return
+        whole = _text(f'"{text[first.start : wrong.start]}"', first.start, wrong.start + 1)
+        yield Repair("replace", back, (whole, *rest), 1, back, wrong)
+
+
+def _swapped(left: Token, right: Token) -> tuple[Token, ...]:
+    start, end = left.start, right.end
+    return right._replace(start=start, end=end), left._replace(start=start, end=end)
+
+
+def _text(written: str, start: int, end: int) -> Token:
+    return Token("STRING", written, start, end)
+
+
+def _rest(scanner: Scanner, text: str, wrong: Token, cut: int) -> tuple[Token, ...]:
+    found = scanner.tokens(text[: wrong.end], wrong.start + cut)
+    return tuple(token for token in found if token.kind not in (END, COMMENT))
 
 
 def spelling(tables: Tables) -> dict[str, str]:
