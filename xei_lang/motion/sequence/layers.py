@@ -43,8 +43,8 @@ class Effort:
     blocked_transits: int
 
 
-LEAN = Effort(5, 8, 5, 4)
-THOROUGH = Effort(13, 10_000, 20, 2)
+LEAN = Effort(5, 8, 5, 3)
+THOROUGH = Effort(13, 10_000, 20, 1)
 
 
 @dataclass(frozen=True, slots=True)
