@@ -80,10 +80,12 @@ def _print(form: str, checked: list[tuple[str, Diagnostics]], sources: dict[str,
 
 
 def _summary(said: Diagnostics, files: int) -> str:
-    errors = sum(diagnostic.severity == "error" for diagnostic in said)
-    warnings = sum(diagnostic.severity == "warning" for diagnostic in said)
-    counts = f"{_count(files, 'file')} checked: {_count(errors, 'error')}, {_count(warnings, 'warning')}"
-    return f"{counts}; `xei explain {said[0].code}` says more" if said else counts
+    errors = [diagnostic.code for diagnostic in said if diagnostic.severity == "error"]
+    warnings = [diagnostic.code for diagnostic in said if diagnostic.severity == "warning"]
+    counts = (_count(files, "file"), _count(len(errors), "error"), _count(len(warnings), "warning"))
+    summary = "{} checked: {}, {}".format(*counts)
+    first = (*errors, *warnings)[:1]
+    return f"{summary}; `xei explain {first[0]}` says more" if first else summary
 
 
 def _count(number: int, noun: str) -> str:
