@@ -7,7 +7,8 @@ import math
 from xei_lang.check import arithmetic
 from xei_lang.check.evaluate import Evaluator
 from xei_lang.check.expectation import Expectation
-from xei_lang.check.labels import Found, Labels
+from xei_lang.check.functions import not_yet
+from xei_lang.check.labels import Extent, Found, Labels
 from xei_lang.check.report import Reporter
 from xei_lang.check.scope import Scope
 from xei_lang.check.state import State
@@ -16,6 +17,8 @@ from xei_lang.check.values import Val, nominal, show
 from xei_lang.ir.skill_plan import TimeConstraint
 from xei_lang.quantity import Quantity
 from xei_lang.syntax.ast import After, Clause, Expression, Within
+
+_MOST_PAIRS = 10_000
 
 
 class Clauses:
@@ -28,8 +31,8 @@ class Clauses:
 
     def constraint(
         self, clause: Clause, own: Found, labels: Labels, scope: Scope, state: State
-    ) -> TimeConstraint | None:
-        """What a clause of the steps `own` says; None where it is wrong, or covers no step at all."""
+    ) -> tuple[TimeConstraint, ...]:
+        """What a clause of the steps `own` says; nothing where it is wrong, or covers no step at all."""
         if isinstance(clause, After):
             return self._after(clause, own, labels, scope, state)
         return self._within(clause, own, labels, scope, state)
@@ -49,18 +52,25 @@ class Clauses:
 
     def _within(
         self, clause: Within, own: Found, labels: Labels, scope: Scope, state: State
-    ) -> TimeConstraint | None:
+    ) -> tuple[TimeConstraint, ...]:
         bound = self.duration(clause.duration, "`within`", scope, state)
         start = own if clause.of is None else labels.find(clause.of, self._reporter)
         if bound is None or own is None or start is None:
-            return None
-        if clause.of is None:
-            return TimeConstraint(own.first, "start", own.last, "end", 0.0, bound.si, clause.span)
-        return TimeConstraint(start.last, "end", own.first, "start", 0.0, bound.si, clause.span)
+            return ()
+        if clause.of is not None:
+            return self._between(start, own, (0.0, bound.si), clause)
+        if len(own.firsts) * len(own.lasts) > _MOST_PAIRS:
+            not_yet(self._reporter, "a bound on the time of so many steps that may overlap", clause.span)
+            return ()
+        return tuple(
+            TimeConstraint(first, "start", last, "end", 0.0, bound.si, clause.span)
+            for first in own.firsts
+            for last in own.lasts
+        )
 
     def _after(
         self, clause: After, own: Found, labels: Labels, scope: Scope, state: State
-    ) -> TimeConstraint | None:
+    ) -> tuple[TimeConstraint, ...]:
         before = labels.find(clause.step, self._reporter)
         low: Val | None = None
         high: Val | None = None
@@ -68,7 +78,7 @@ class Clauses:
             low = self.duration(clause.by.lower, "`by`", scope, state)
             high = self.duration(clause.by.upper, "`by`", scope, state)
             if low is None or high is None:
-                return None
+                return ()
             if arithmetic.compare(">", low, high):
                 self._reporter.report(
                     "XEI0322",
@@ -77,10 +87,25 @@ class Clauses:
                     "the first time is longer than the second",
                     help=("write the shorter time first",),
                 )
-                return None
+                return ()
         if own is None or before is None:
-            return None
+            return ()
         bounds = (
             (low.si, high.si) if isinstance(low, Quantity) and isinstance(high, Quantity) else (0.0, math.inf)
         )
-        return TimeConstraint(before.last, "end", own.first, "start", *bounds, clause.span)
+        return self._between(before, own, bounds, clause)
+
+    def _between(
+        self, before: Extent, own: Extent, bounds: tuple[float, float], clause: Clause
+    ) -> tuple[TimeConstraint, ...]:
+        """From the latest end of some steps to the earliest start of others.
+
+        An upper bound holds between the latest and the earliest only, which no conjunction of pairs says.
+        """
+        pairs = [(last, first) for last in before.lasts for first in own.firsts]
+        if len(pairs) > 1 and bounds[1] != math.inf:
+            not_yet(self._reporter, "a longest time between steps of which some may overlap", clause.span)
+            return ()
+        return tuple(
+            TimeConstraint(last, "end", first, "start", *bounds, clause.span) for last, first in pairs
+        )

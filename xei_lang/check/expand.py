@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 
-from xei_lang.check import choices, loops, procedures, unsupported
+from xei_lang.check import choices, loops, overlap, procedures, unsupported
 from xei_lang.check.context import Context
 from xei_lang.check.effects import apply_effects, resources_of
 from xei_lang.check.labels import Labels
@@ -28,6 +28,7 @@ from xei_lang.syntax.ast import (
     Member,
     Note,
     ObjectDecl,
+    Parallel,
     Param,
     Procedure,
     ProfileDecl,
@@ -125,9 +126,8 @@ class Expander:
             return
         found = self.plan.since(before)
         for clause in step.clauses:
-            constraint = self.context.clauses.constraint(clause, found, self.labels, scope, self.state)
-            if constraint is not None:
-                self.plan.constraints.append(constraint)
+            constraints = self.context.clauses.constraint(clause, found, self.labels, scope, self.state)
+            self.plan.constraints.extend(constraints)
         if step.label is not None:
             self.labels.add(step.label.id, found)
 
@@ -157,6 +157,8 @@ class Expander:
                 loops.for_loop(self, step, action, scope, where)
             case Repeat():
                 loops.repeat(self, step, action, scope, where)
+            case Parallel():
+                overlap.parallel(self, step, action, scope, where)
             case If():
                 choices.choice(self, step, action, scope, where)
             case _:

@@ -11,10 +11,10 @@ from xei_lang.syntax.ast import Attr, Expression, Index, Name, Number, Range, St
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Extent:
-    """From the first to the last step that a label covers; both are the same for a single step."""
+    """From the first to the last steps that a label covers; several only where some of them may overlap."""
 
-    first: str
-    last: str
+    firsts: tuple[str, ...]
+    lasts: tuple[str, ...]
 
 
 Found = Extent | None
@@ -46,6 +46,16 @@ class Labels:
         if label is not None:
             for (name, rest), found in inner.items():
                 self._frames[-1][label, f"{mark}.{name}{rest}"] = found
+
+    def branch(self) -> Labels:
+        """Labels for a branch that sees those so far, and that others do not see before `join`."""
+        inner = Labels()
+        inner._frames = [*self._frames, {}]
+        return inner
+
+    def join(self, branch: Labels) -> None:
+        """Take over what a branch named."""
+        self._frames[-1].update(branch._frames[-1])
 
     def add(self, label: str, found: Found, mark: str = "") -> None:
         """A labelled step or block has ended."""

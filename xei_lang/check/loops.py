@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import nullcontext
 from typing import TYPE_CHECKING
 
 from xei_lang.check.functions import not_yet
+from xei_lang.check.overlap import Overlap
 from xei_lang.check.plan_builder import Where
 from xei_lang.check.scope import Scope
 from xei_lang.check.values import POISON, Val, kind, nominal, show
@@ -16,13 +18,12 @@ if TYPE_CHECKING:
     from xei_lang.check.expand import Expander
 
 
+_UNORDERED = ("turns of an `unordered` loop", "leave out `unordered`, and the turns follow each other")
+
+
 def for_loop(expander: Expander, step: Step, loop: For, scope: Scope, where: Where) -> None:
     """`for a, b in list { }`: one turn for each member."""
     context = expander.context
-    if loop.unordered:
-        not_yet(
-            context.reporter, "`unordered`, turns of a loop in any order,", _word(expander, loop, "unordered")
-        )
     value = context.evaluator.value(loop.iterable, scope)
     items = context.evaluator.lists.members(value, loop.iterable)
     if items is None:
@@ -64,13 +65,15 @@ def _turns(
         return
     if not count:
         expander.skip(loop.body, scope)
+    overlap = Overlap(expander, *_UNORDERED) if isinstance(loop, For) and loop.unordered else None
     expander.loops.append(loop.span)
     start = len(plan.steps)
     for number, item in enumerate(items, start=1):
         if not expander.context.evaluator.budget.spend(1, loop.span):
             plan.full, plan.overflow = True, plan.overflow or loop.span
             break
-        _turn(expander, step, loop, number, item, scope=scope, where=where)
+        with overlap.branch() if overlap else nullcontext():
+            _turn(expander, step, loop, number, item, scope=scope, where=where)
         made = len(plan.steps) - start
         if number == 1 and start + made * count > plan.max_steps and _regular(expander, loop):
             plan.full = True
@@ -78,6 +81,8 @@ def _turns(
         if plan.full:
             break
     expander.loops.pop()
+    if overlap is not None:
+        overlap.join()
     if plan.full and not expander.loops and count > 1:
         _too_many(expander, loop, "makes too many steps")
 

@@ -44,6 +44,14 @@ def step_names(members: Iterable[Member]) -> Mapping[Span, str]:
     return naming.names
 
 
+def names_of_blocks(blocks: Iterable[Block]) -> Mapping[Span, str]:
+    """The names of the steps of several blocks that are one name space; a label's later use is told apart."""
+    naming, taken = _Naming(), set[str]()
+    for number, block in enumerate(blocks, start=1):
+        naming.block(block.statements, str(number), taken)
+    return naming.names
+
+
 class _Naming:
     def __init__(self) -> None:
         self.names: dict[Span, str] = {}

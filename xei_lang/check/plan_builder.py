@@ -39,6 +39,10 @@ class Where:
         """Inside a turn of a loop without a label."""
         return replace(self, indices=(*self.indices, number), turn=(*self.turn, number))
 
+    def in_branch(self, branch: str) -> Where:
+        """In a branch that may overlap with others."""
+        return replace(self, branch=f"{self.branch}/{branch}" if self.branch else branch)
+
     def deeper(self) -> Where:
         """One block further in."""
         return replace(self, depth=self.depth + 1)
@@ -50,9 +54,7 @@ class Where:
 
     def either_way(self, branch: str, condition: str) -> Where:
         """In a branch of a choice that is not decided yet."""
-        return replace(
-            self, branch=f"{self.branch}/{branch}" if self.branch else branch, when=(*self.when, condition)
-        )
+        return replace(self.in_branch(branch), when=(*self.when, condition))
 
 
 @dataclass(slots=True)
@@ -60,7 +62,7 @@ class PlanBuilder:
     """Collects a plan. `tails` are the steps that the next one follows; `full` says that the bound was
     reached.
 
-    `overflow` is the loop that was reported for it.
+    `overflow` is the loop that was reported for it, `overlaps` are the ranges of steps that may overlap.
     """
 
     max_steps: int
@@ -71,6 +73,7 @@ class PlanBuilder:
     tails: tuple[str, ...] = ()
     full: bool = False
     overflow: Span | None = None
+    overlaps: list[tuple[int, int]] = field(default_factory=list[tuple[int, int]])
     _ids: set[str] = field(default_factory=set[str])
     _noted: _Places = field(default_factory=set[tuple[Span, tuple[Call, ...]]])
 
@@ -114,7 +117,17 @@ class PlanBuilder:
 
     def since(self, count: int) -> Found:
         """What the steps cover that were added since there were `count` of them."""
-        return Extent(self.steps[count].step_id, self.steps[-1].step_id) if len(self.steps) > count else None
+        if len(self.steps) <= count:
+            return None
+        if not self.overlaps or self.overlaps[-1][1] <= count:
+            return Extent((self.steps[count].step_id,), (self.steps[-1].step_id,))
+        covered = self.steps[count:]
+        own = {step.step_id for step in covered}
+        followed = {before for step in covered for before in step.after}
+        return Extent(
+            tuple(step.step_id for step in covered if own.isdisjoint(step.after)),
+            tuple(step.step_id for step in covered if step.step_id not in followed),
+        )
 
     def remark(self, node: Note | Unmapped, origin: tuple[Call, ...]) -> None:
         """Keep a note or a gap in its place: once, also where it stands in a loop."""

@@ -29,6 +29,7 @@ class State:
         self._occupants: dict[PlaceRef, str] = {}
         self._taken_from: dict[PlaceRef, str] = {}
         self._in_either: tuple[str, ...] = ()
+        self._touched: set[_Key] = set()
 
     def copy(self) -> State:
         """A state of its own, for the other branch of a choice."""
@@ -39,7 +40,42 @@ class State:
         twin._occupants = dict(self._occupants)
         twin._taken_from = dict(self._taken_from)
         twin._in_either = self._in_either
+        twin._touched = set(self._touched)
         return twin
+
+    def fork(self) -> State:
+        """A state of its own for a branch that may overlap with others; `changed` then is what it changed."""
+        twin = self.copy()
+        twin._touched = set()
+        return twin
+
+    @property
+    def changed(self) -> frozenset[tuple[str, str]]:
+        """Variable and subject of each fact that was ever changed since `fork`."""
+        return frozenset((variable, subject.partition(":")[0]) for variable, subject in self._touched)
+
+    def adopt(self, base: State, branch: State) -> None:
+        """Take over what a branch, forked from `base`, has changed; branches that overlap change different
+        things.
+        """
+        for key in sorted(branch._touched):
+            fact = branch._facts.get(key)
+            if fact == base._facts.get(key):
+                continue
+            if fact is not None:
+                self._store(key, fact)
+            else:
+                self._drop(key)
+        for own, before, after in (
+            (self._occupants, base._occupants, branch._occupants),
+            (self._taken_from, base._taken_from, branch._taken_from),
+        ):
+            for place in before.keys() - after.keys():
+                own.pop(place, None)
+            own.update(item for item in after.items() if before.get(item[0]) != item[1])
+        gone = set(base._in_either) - set(branch._in_either)
+        new = tuple(name for name in branch._in_either if name not in base._in_either)
+        self._in_either = (*(name for name in self._in_either if name not in gone), *new)
 
     def join(self, other: State) -> State:
         """What is known whichever of two branches was taken: the facts that both share."""
@@ -49,6 +85,7 @@ class State:
                 both._drop(key)
         both._occupants = dict(self._occupants.items() & other._occupants.items())
         both._taken_from = dict(self._taken_from.items() & other._taken_from.items())
+        both._touched |= other._touched
         both._in_either = tuple(name for name in self._in_either if name in other._in_either)
         return both
 
@@ -148,6 +185,7 @@ class State:
         known = self._facts.get(key)
         if known == fact:
             return
+        self._touched.add(key)
         if known is None:
             insort(self._order, key)
         self._facts[key] = fact
@@ -155,5 +193,6 @@ class State:
 
     def _drop(self, key: _Key) -> None:
         if self._facts.pop(key, None) is not None:
+            self._touched.add(key)
             del self._order[bisect_left(self._order, key)]
             self._listed = None

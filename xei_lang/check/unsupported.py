@@ -21,7 +21,6 @@ from xei_lang.syntax.ast import (
     Keep,
     Leave,
     Measure,
-    Parallel,
     Pause,
     Require,
     Start,
@@ -34,7 +33,6 @@ if TYPE_CHECKING:
     from xei_lang.check.expand import Expander
 
 _WORDS: Mapping[type, tuple[str, str]] = {
-    Parallel: ("parallel", "`parallel`, branches that may overlap,"),
     Start: ("start", "`start`, an instrument that works on its own,"),
     Await: ("await", "`await`, joining an instrument,"),
     Stop: ("stop", "`stop`, ending an instrument's work,"),

@@ -75,6 +75,7 @@ _ENTRIES = {
     "XEI0320": Entry("lists of different lengths taken together"),
     "XEI0321": Entry("calls that lie too deep in each other"),
     "XEI0322": Entry("a bound on time that nothing can meet"),
+    "XEI0330": Entry("something that two branches use, which may overlap"),
     # 05xx warnings
     "XEI0501": Entry("a declaration that nothing uses", "warning"),
     # 06xx profiles and world
