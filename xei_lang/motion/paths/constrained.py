@@ -113,7 +113,8 @@ def _shortened(
     for _ in range(SHORTCUTS):
         if len(way) < 3:
             break
-        first, last = sorted(random.integers(0, len(way), 2).tolist())
+        a, b = random.integers(0, len(way), 2)
+        first, last = min(int(a), int(b)), max(int(a), int(b))
         if last - first < 2:
             continue
         steps, met = _walk(space, project, way[first], way[last], budget)
