@@ -211,5 +211,17 @@ class _Search:
         below = indent(tokens[end], self._text)
         if tokens[end].text == "}":
             return "below" if below == width else ""
-        stands = words[0] == "parallel" if tokens[end].text == "{" else looks_like_statement(tokens, end)
-        return "below" if stands and below > width else ""
+        if below <= width:
+            return ""
+        if tokens[end].text == "{":
+            return "below" if words[0] == "parallel" else ""
+        return "below" if looks_like_statement(tokens, end) or not self._has_opening(end) else ""
+
+    def _has_opening(self, begin: int) -> bool:
+        """Whether a line holds an open brace, as the second line of a long header does."""
+        for index in range(begin, len(self._tokens)):
+            if index > begin and begins_line(self._tokens, index, self._text):
+                break
+            if self._tokens[index].text == "{":
+                return True
+        return False

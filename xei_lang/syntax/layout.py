@@ -36,9 +36,7 @@ def looks_like_statement(tokens: Sequence[Token], index: int) -> bool:
     if token.kind != WORD and token.text not in _BEGINNINGS:
         return False
     following = tokens[index + 1].text if index + 1 < len(tokens) else ""
-    if following in ("=", ",", ".", ")", "]"):
-        return False
-    return token.text in _BEGINNINGS or following in ("(", ":")
+    return following in ("(", ":") or (token.text in _BEGINNINGS and following not in ("=", ","))
 
 
 def is_nearly_statement(tokens: Sequence[Token], index: int) -> bool:

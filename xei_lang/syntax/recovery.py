@@ -36,6 +36,7 @@ from xei_lang.syntax.tables import END
 MAX_FAULTS = 100
 """After so many the rest of the file is left unread: they have a cause of their own, such as a wrong file."""
 
+_BEFORE = 10
 _BRACE = re.compile(r"\s*([{}])\s*(#.*)?$")
 _STATEMENT, _ITEM = "WAIT", "PROTOCOL"
 
@@ -166,15 +167,15 @@ class _Recovery:
 
     def _mend(self) -> bool:
         """Report the token that cannot follow and get past it; False where nothing follows any more."""
-        before = tuple(done.token for done in self._done[-8:])
+        before = tuple(done.token for done in self._done[-_BEFORE:])
         token = self._tokens[self._at]
         quiet = self._at == self._quiet_at or self._is_quiet(token) or self._in_doubt()
-        pairs = [(done.token, done.before) for done in self._done[-4:]]
+        pairs = [(done.token, done.before) for done in self._done[-_BEFORE:]]
         repair = find_repair(
             self._machine, self._scanner, self._text, pairs, self._stack, self._tokens, self._at
         )
         habit = find_habit(list(before), token, self._text)
-        if habit is not None and not (repair is not None and repair.whole and not self._reaches(habit, LOOK)):
+        if habit is not None and not self._is_better(repair, habit):
             if not quiet and not self._is_quiet(habit):
                 self._report(explain_habit(self._source, habit), quieten=False)
             if habit.mend is not None and self._follow(habit):
@@ -185,10 +186,14 @@ class _Recovery:
             said = explain(self._source, self._site(before, repair))
             if said.span is None or not self._line_is_quiet(said.span.start):
                 self._report(said)
-        self._doubtful = token.start if repair is None or not repair.whole else self._doubtful
+        self._doubtful = token.start if repair is None else self._doubtful
         if repair is not None and self._apply(repair):
             return True
         return self._leave_out_argument() or self._leave_out()
+
+    def _is_better(self, repair: Repair | None, habit: Habit) -> bool:
+        """Whether a repair explains more than a habit does."""
+        return repair is not None and repair.whole and (repair.at_break or not self._reaches(habit, LOOK))
 
     def _site(self, before: tuple[Token, ...], repair: Repair | None) -> Site:
         """Where the mistake is: at the wrong token, or at the line break that lacks something before it."""

@@ -38,6 +38,8 @@ class Repair:
     """The token that is put in, left out, or replaced."""
     meant: str = ""
     """What was probably meant in the place of `blamed`."""
+    at_break: bool = False
+    """Whether the token was put in at the end of a line whose last statement breaks off."""
     whole: bool = False
     """Whether the text follows the grammar behind it as far as was looked."""
 
@@ -95,6 +97,7 @@ def _candidates(
             yield Repair("swap", 0, _swapped(wrong, following), 2, 3, wrong)
         if done and done[-1][0].text not in ("{", "}"):
             yield Repair("swap", 1, _swapped(done[-1][0], wrong), 1, 4, wrong)
+    yield from _breaks(machine, text, done)
     for back in range(1, min(_BACK, len(done)) + 1):
         old, before = done[len(done) - back]
         if old.text in ("{", "}") or old.start == old.end:
@@ -103,6 +106,19 @@ def _candidates(
         yield from _insertions(machine, before, later, old, back, False)
         yield Repair("delete", back, later, 0, 2 + back, old)
         yield from _replacements(machine, before, later, old, back)
+
+
+def _breaks(machine: Machine, text: str, done: Sequence[tuple[Token, Stack]]) -> Iterator[Repair]:
+    """A keyword at the start of a line that passed for a name: it is the line before that lacks something."""
+    for back in range(1, len(done)):
+        old, before = done[len(done) - back]
+        if "\n" in text[done[len(done) - back - 1][0].end : old.start]:
+            if old.kind == WORD and old.text in machine.tables.words:
+                word = old._replace(kind=machine.tables.words[old.text])
+                later = (word, *(token for token, _ in done[len(done) - back + 1 :]))
+                for repair in _insertions(machine, before, later[1:], word, back, False):
+                    yield replace(repair, at_break=True, cost=repair.cost - back - 1)
+            return
 
 
 def _insertions(
