@@ -9,7 +9,7 @@ from pathlib import Path
 
 import click
 
-from xei_lang.cli.exit_codes import WRONG_USAGE
+from xei_lang.cli.files import count, protocol_files
 from xei_lang.cli.options import Options, compiling
 from xei_lang.cli.report import exit_code, show, with_quoted
 from xei_lang.cli.session import request_for
@@ -36,7 +36,7 @@ def command(*, paths: tuple[Path, ...], form: str, options: Options) -> None:  #
 
     Example: xei check protocols/
     """
-    files = _files(paths)
+    files = protocol_files(paths)
     checked: list[tuple[str, Diagnostics]] = []
     sources: dict[str, Source] = {}
     for file in files:
@@ -61,17 +61,6 @@ def command(*, paths: tuple[Path, ...], form: str, options: Options) -> None:  #
     sys.exit(exit_code(said))
 
 
-def _files(paths: tuple[Path, ...]) -> list[Path]:
-    found: list[Path] = []
-    for path in paths:
-        found.extend(sorted(path.rglob("*.xei")) if path.is_dir() else [path])
-    if not found:
-        folders = ", ".join(f"`{path}`" for path in paths)
-        click.echo(f"error: there is no .xei file in {folders}", err=True)
-        sys.exit(WRONG_USAGE)
-    return list(dict.fromkeys(found))
-
-
 def _print(form: str, checked: list[tuple[str, Diagnostics]], sources: dict[str, Source]) -> None:
     from xei_lang.cli.check_forms import render
 
@@ -82,11 +71,7 @@ def _print(form: str, checked: list[tuple[str, Diagnostics]], sources: dict[str,
 def _summary(said: Diagnostics, files: int) -> str:
     errors = [diagnostic.code for diagnostic in said if diagnostic.severity == "error"]
     warnings = [diagnostic.code for diagnostic in said if diagnostic.severity == "warning"]
-    counts = (_count(files, "file"), _count(len(errors), "error"), _count(len(warnings), "warning"))
+    counts = (count(files, "file"), count(len(errors), "error"), count(len(warnings), "warning"))
     summary = "{} checked: {}, {}".format(*counts)
     first = (*errors, *warnings)[:1]
     return f"{summary}; `xei explain {first[0]}` says more" if first else summary
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

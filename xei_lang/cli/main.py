@@ -16,6 +16,8 @@ COMMANDS = {
     "check": "Check protocols without moving anything.",
     "compile": "Compile a protocol to a bundle of timed, verified motion.",
     "run": "Execute a protocol and write its trace.",
+    "fmt": "Format protocols.",
+    "fix": "Apply the fixes of diagnostics.",
     "explain": "Say more about a diagnostic's code.",
     "schema": "Print the JSON Schema of a form.",
 }

@@ -41,7 +41,7 @@ def compiling(command: Callable[..., None]) -> Callable[..., None]:
         **others: Any,
     ) -> None:
         bound, given = _pairs("--bind", bindings), _pairs("--param", params)
-        command(options=Options(profile, bound, given, seed, _wants_color(color), quiet), **others)
+        command(options=Options(profile, bound, given, seed, wants_color(color), quiet), **others)
 
     wrapped: Callable[..., None] = with_options
     for option in _SHARED:
@@ -84,7 +84,7 @@ def _pairs(option: str, values: tuple[str, ...]) -> Pairs:
     return tuple(found.items())
 
 
-def _wants_color(choice: str) -> bool:
+def wants_color(choice: str) -> bool:
     """Whether to colour what goes to stderr (https://no-color.org)."""
     if choice != "auto":
         return choice == "always"

@@ -19,6 +19,11 @@ def read_source(path: Path, shown: str) -> tuple[Source | None, Diagnostics]:
             data = file.read(MAX_BYTES + 1)
     except (OSError, ValueError) as error:
         return None, (_unreadable(shown, error),)
+    return decode_source(data, shown)
+
+
+def decode_source(data: bytes, shown: str) -> tuple[Source | None, Diagnostics]:
+    """The text that bytes stand for, as `read_source` gives it."""
     if len(data) > MAX_BYTES:
         message = f"`{shown}` is larger than {MAX_BYTES // 1024**2} MiB"
         return None, (Diagnostic("XEI0107", message),)
