@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 from xei_lang import __version__
 from xei_lang.diagnostics import Diagnostics, Sources
 
-Checked = tuple[str, Diagnostics]
-"""A file that was checked, as it is shown, and all that was said while checking it."""
+if TYPE_CHECKING:
+    from xei_lang.diagnostics.render.junit import Checked
 
 
 def render(form: str, checked: Sequence[Checked], sources: Sources) -> str:
