@@ -44,7 +44,8 @@ def plan_with_either_arm(
         step, other = taken
         if step in arms:
             return graph, None, (_with_note(found.diagnostic, other, before[step]),)
-        changed, problems = lower(plan, profile, world, {**arms, step: other})
+        tried: dict[str, Side] = {**arms, step: other}
+        changed, problems = lower(plan, profile, world, tried)
         if changed is None:
             return graph, None, (_with_note(found.diagnostic, other, problems[0]),)
         again = attempt(changed, world, profile, description, seed, progress)
@@ -53,7 +54,7 @@ def plan_with_either_arm(
         if not _is_free(graph, step):
             return graph, None, (_with_help(found.diagnostic, other),)
         before[step] = found.diagnostic
-        arms, graph, found = {**arms, step: other}, changed, again
+        arms, graph, found = tried, changed, again
     return graph, found, ()
 
 
