@@ -1,4 +1,17 @@
-"""What a page of docs/errors/ holds: examples as protocols, and changes to a copy of the bench's profile."""
+"""What a page of docs/errors/ holds, and its examples as files.
+
+A page has the code and its title from the catalogue, what it means, then `## Why`, `## Example`, `## Fix` and
+`Related: XEI0101, XEI0102.` In an example or a fix
+
+- an `xei` block is checked; a first line `# xei compile example.xei --bind a=b` has it compiled as far as its
+  goals with these options (pages from XEI06xx on are always compiled so). Without one, a protocol that waits
+  stands for it;
+- a line "In a file `name.csv`:" before a `csv` or `xei` block writes it under that name;
+- a line "In `usage_profile.yaml`:" before a `diff` block changes that file in a copy of the bench's profile;
+- a `yaml` or `xml` block in a fix shows lines that the bench's profile has.
+
+A page whose example nothing here can run begins with the front matter `NOT_RUN`.
+"""
 
 from __future__ import annotations
 
@@ -42,7 +55,7 @@ class Section:
 
     changes: tuple[Change, ...]
     files: dict[str, str]
-    """Its `xei` blocks by their names, in their order; the last of them is the one that is checked."""
+    """Its `xei` and `csv` blocks by their names, in their order; the last protocol is what is checked."""
     profile_lines: tuple[str, ...]
     """Blocks of YAML or XML, which show lines as the bench has them."""
 
@@ -54,7 +67,7 @@ class Section:
         files = self.files or {EXAMPLE: PLAIN}
         for name, text in files.items():
             (folder / name).write_text(text, encoding="utf-8")
-        return folder / list(files)[-1]
+        return folder / [name for name in files if name.endswith(".xei")][-1]
 
 
 @dataclass(frozen=True)
@@ -71,6 +84,9 @@ class Page:
             if block["language"] == "diff":
                 assert block["file"], f"{self.code}: a diff stands under a line that names its file"
                 changes.append(Change(block["file"], block["body"]))
+            elif block["language"] == "csv":
+                assert block["file"], f"{self.code}: a table stands under a line that names its file"
+                files[block["file"]] = block["body"]
             elif block["language"] == "xei":
                 files[block["file"] or EXAMPLE] = block["body"]
             elif block["language"] in ("yaml", "xml"):
