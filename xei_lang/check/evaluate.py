@@ -10,7 +10,7 @@ from xei_lang.check.functions import Functions
 from xei_lang.check.lists import Lists
 from xei_lang.check.places import METHODS, PROPERTIES, Places
 from xei_lang.check.registry import Registry
-from xei_lang.check.report import Reporter, meant
+from xei_lang.check.report import Reporter, listed, meant
 from xei_lang.check.scope import Scope
 from xei_lang.check.types import ANY_ARM
 from xei_lang.check.values import (
@@ -18,6 +18,8 @@ from xei_lang.check.values import (
     ListValue,
     ObjectValue,
     PlaceValue,
+    RecordValue,
+    TableValue,
     Val,
     Word,
     a,
@@ -223,6 +225,8 @@ class Evaluator:
         if owner is POISON:
             return POISON
         name = node.name.id
+        if isinstance(owner, RecordValue | TableValue):
+            return self._column(owner, node)
         if isinstance(owner, ObjectValue) and name in PROPERTIES:
             return self._places.property(owner, name, node.span)
         known = (*METHODS, *PROPERTIES)
@@ -239,6 +243,20 @@ class Evaluator:
         else:
             shown, help = f"{kind(owner)} has no `{name}`", ()
         self._reporter.report("XEI0319", shown, node.name.span, "no such attribute", help=help)
+        return POISON
+
+    def _column(self, owner: RecordValue | TableValue, node: Attr) -> Val:
+        columns = owner.fields if isinstance(owner, RecordValue) else owner.columns
+        name = node.name.id
+        if name in columns:
+            return columns[name]
+        self._reporter.report(
+            "XEI0319",
+            f"the table has no column `{name}`",
+            node.name.span,
+            f"its columns are {listed(tuple(columns), 12)}",
+            help=meant(did_you_mean(name, columns)),
+        )
         return POISON
 
     def _call(self, node: CallExpr, scope: Scope) -> Val:

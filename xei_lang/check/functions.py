@@ -132,6 +132,8 @@ class Functions:
 
     def _fold(self, node: CallExpr, args: tuple[Val, ...], step: Callable[[Val, Val], Val]) -> Val:
         items = args[0].items if len(args) == 1 and isinstance(args[0], ListValue) else args
+        if POISON in items:
+            return POISON
         wrong = next((item for item in items if not arithmetic.is_numeric(item)), None)
         if not items or wrong is not None:
             found = "" if wrong is None else f", not {kind(wrong)}"

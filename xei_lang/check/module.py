@@ -12,8 +12,7 @@ from xei_lang.check.procedures import check_alone, check_declarations
 from xei_lang.check.report import Reporter
 from xei_lang.check.scope import Scope
 from xei_lang.check.units import Unit
-from xei_lang.check.unsupported import refuse
-from xei_lang.check.values import POISON
+from xei_lang.check.values import Val
 from xei_lang.diagnostics import Diagnostics, Label, Source, Span, has_errors
 from xei_lang.ir.skill_plan import Fact, SkillPlan
 from xei_lang.profiles.model import Profile
@@ -95,9 +94,17 @@ def _check_unit(unit: Unit, expander: Expander) -> None:
     _check_version(unit.module, expander)
     for item in unit.module.items:
         if isinstance(item, ImportTable):
-            refuse(reporter, item)
-            unit.scope.declare(item.name, "table", POISON, reporter)
+            value = _table(unit, item, expander)
+            unit.scope.declare(item.name, "table", value, reporter)
     check_declarations(expander, unit.own)
+
+
+def _table(unit: Unit, node: ImportTable, expander: Expander) -> Val:
+    """A table; the room that reads CSV is entered only where there is one."""
+    from xei_lang.check.tables import import_table
+
+    context = expander.context
+    return import_table(unit, node, context.options.files, context.registry, context.reporter)
 
 
 def _one_protocol(module: Module, reporter: Reporter) -> None:

@@ -11,7 +11,7 @@ from xei_lang.diagnostics import Label, Span
 from xei_lang.syntax.ast import Name
 
 SymbolKind = Literal["object", "parameter", "variable", "loop variable", "measurement", "table"]
-_SHOULD_BE_USED = ("object", "parameter", "variable")
+_SHOULD_BE_USED = ("object", "parameter", "variable", "table")
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -17,7 +17,6 @@ from xei_lang.diagnostics import Span
 from xei_lang.syntax.ast import (
     Action,
     Await,
-    ImportTable,
     Keep,
     Leave,
     Measure,
@@ -42,11 +41,10 @@ _WORDS: Mapping[type, tuple[str, str]] = {
     Keep: ("keep", "`keep`, a condition that holds throughout a block,"),
     Measure: ("measure", "`measure`, a value known only when it runs,"),
     Require: ("require", "`require`, a condition on the state,"),
-    ImportTable: ("import", "`import table`"),
 }
 
 
-def refuse(reporter: Reporter, node: Action | Require | ImportTable) -> None:
+def refuse(reporter: Reporter, node: Action | Require) -> None:
     """Report a construct at its keyword."""
     word, shown = _WORDS[type(node)]
     not_yet(reporter, shown, Span(node.span.file, node.span.start, node.span.start + len(word)))

@@ -7,7 +7,7 @@ says nothing.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
@@ -81,6 +81,20 @@ class ListValue:
     items: Sequence[Val]
 
 
+@dataclass(frozen=True, slots=True)
+class RecordValue:
+    """A row of a table: its cells by the names of their columns."""
+
+    fields: Mapping[str, Val]
+
+
+@dataclass(frozen=True, slots=True)
+class TableValue(ListValue):
+    """A table: a list of its rows, with each column as a list by its name."""
+
+    columns: Mapping[str, ListValue]
+
+
 Val = (
     Quantity
     | int
@@ -92,6 +106,7 @@ Val = (
     | PlaceValue
     | StationRef
     | ListValue
+    | RecordValue
     | Interval
     | Poison
 )
@@ -119,6 +134,9 @@ def show(value: Val) -> str:  # noqa: PLR0911 one return for each kind of value
             return value.name
         case PlaceValue():
             return place_text(value.ref)
+        case RecordValue():
+            shown = [f"{name}: {show(cell)}" for name, cell in list(value.fields.items())[:3]]
+            return f"({', '.join(shown)}{', ...' if len(value.fields) > 3 else ''})"
         case ListValue():
             shown = [show(item) for item in value.items[:3]]
             return f"[{', '.join(shown)}{', ...' if len(value.items) > 3 else ''}]"
@@ -130,7 +148,7 @@ def show(value: Val) -> str:  # noqa: PLR0911 one return for each kind of value
             return str(value)
 
 
-def kind(value: Val) -> str:  # noqa: PLR0911 one return for each kind of value
+def kind(value: Val) -> str:  # noqa: PLR0911, PLR0912 one return for each kind of value
     """What sort of value it is, with its article, for messages."""
     match value:
         case bool():
@@ -149,8 +167,12 @@ def kind(value: Val) -> str:  # noqa: PLR0911 one return for each kind of value
             return "a place"
         case StationRef():
             return "a station"
+        case TableValue():
+            return "a table"
         case ListValue():
             return "a list"
+        case RecordValue():
+            return "a row of a table"
         case Interval():
             return kind(value.lower)
         case Poison():
@@ -182,6 +204,8 @@ def to_plan(value: Val) -> Value:  # noqa: PLR0911 one return for each kind of v
             return float(value)
         case ListValue():
             return tuple(to_plan(item) for item in value.items)
+        case RecordValue():
+            return tuple(to_plan(cell) for cell in value.fields.values())
         case Interval():
             return to_plan(value.nominal)
         case Poison():

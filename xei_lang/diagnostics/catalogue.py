@@ -35,6 +35,8 @@ _ENTRIES = {
     "XEI0120": Entry("an import that leads out of the project folder"),
     "XEI0121": Entry("files that import each other in a circle"),
     "XEI0122": Entry("a file that cannot be imported"),
+    "XEI0123": Entry("a table whose columns cannot be read"),
+    "XEI0124": Entry("a cell of a table that is not what its column says"),
     # 02xx names and binding
     "XEI0201": Entry("a skill that the robot does not have"),
     "XEI0202": Entry("a name that nothing has"),
