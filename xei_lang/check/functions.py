@@ -1,20 +1,20 @@
-"""The functions of expressions: `zip`, `len`, `sum`, `min`, `max`."""
+"""The functions of expressions: `zip`, `len`, `sum`, `min`, `max`, and those of `rearrange`."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import reduce
-from math import ceil
+from math import ceil, prod
 
 from xei_lang.check import arithmetic
 from xei_lang.check.budget import Budget
+from xei_lang.check.rearrange import chunks, pairs, products, shuffled
 from xei_lang.check.report import Reporter, meant
 from xei_lang.check.values import POISON, ListValue, Val, a, kind
 from xei_lang.diagnostics import Span, did_you_mean
 from xei_lang.quantity import DimensionError, Quantity
 from xei_lang.syntax.ast import CallExpr, Name
 
-_LATER = ("chunks", "pairs", "product", "shuffle")
 STATE_VARIABLES = (
     "volume",
     "temperature",
@@ -54,12 +54,17 @@ class Functions:
             "min": self._least,
             "max": self._greatest,
             "ceil": self._ceil,
+            "chunks": self._chunks,
+            "pairs": self._pairs,
+            "product": self._product,
+            "shuffle": self._shuffle,
         }
         self.names = tuple(self._table)
 
     def call(self, function: Name, node: CallExpr, args: tuple[Val, ...]) -> Val:
         """The value of a call of a known function; POISON where an argument is."""
-        named = next((arg for arg in node.args if arg.name is not None), None)
+        allowed = ("seed",) if function.id == "shuffle" else ()
+        named = next((arg for arg in node.args if arg.name is not None and arg.name.id not in allowed), None)
         if named is not None and named.name is not None:
             return self._wrong(f"`{function.id}` takes no argument `{named.name.id}`", named.span)
         return POISON if POISON in args else self._table[function.id](node, args)
@@ -67,9 +72,7 @@ class Functions:
     def unknown(self, function: Name, skills: tuple[str, ...]) -> Val:
         """Report a call of something that is no function of expressions."""
         name = function.id
-        if name in _LATER:
-            not_yet(self._reporter, f"the function `{name}`", function.span)
-        elif name in STATE_VARIABLES:
+        if name in STATE_VARIABLES:
             not_yet(self._reporter, f"asking for a state, as `{name}(...)` does,", function.span)
         elif name == "range":
             self._wrong("`range` is written as `1 .. 8` here", function.span, "both ends are included")
@@ -78,7 +81,7 @@ class Functions:
                 f"`{name}` is a skill and has no value", function.span, "a skill is a statement of its own"
             )
         else:
-            known = (*self.names, *_LATER, *STATE_VARIABLES)
+            known = (*self.names, *STATE_VARIABLES)
             self._reporter.report(
                 "XEI0319",
                 f"there is no function `{name}`",
@@ -129,6 +132,38 @@ class Functions:
         if value is None or not arithmetic.is_numeric(value) or isinstance(value, Quantity):
             return self._wrong("`ceil` takes one plain number", node.span)
         return ceil(value)  # type: ignore[arg-type]
+
+    def _chunks(self, node: CallExpr, args: tuple[Val, ...]) -> Val:
+        size = args[1] if len(args) == 2 else None
+        if not isinstance(size, int) or isinstance(size, bool) or not isinstance(args[0], ListValue):
+            return self._wrong("`chunks` takes a list and a number", node.span, "as in `chunks(tubes, 4)`")
+        if size < 1:
+            return self._wrong(f"chunks of {size} members are none", node.args[1].span, "expected 1 or more")
+        return self._rearranged(node, len(args[0].items), args[0], lambda items: chunks(items, size))
+
+    def _pairs(self, node: CallExpr, args: tuple[Val, ...]) -> Val:
+        if len(args) != 1 or not isinstance(args[0], ListValue):
+            return self._wrong("`pairs` takes one list", node.span, "each member is paired with the next")
+        return self._rearranged(node, 2 * len(args[0].items), args[0], pairs)
+
+    def _product(self, node: CallExpr, args: tuple[Val, ...]) -> Val:
+        lists = [arg.items for arg in args if isinstance(arg, ListValue)]
+        if len(lists) < 2 or len(lists) < len(args):
+            return self._wrong("`product` takes two lists or more", node.span)
+        count = prod(len(items) for items in lists) * len(lists)
+        return products(lists) if self._budget.spend(count, node.span) else POISON
+
+    def _shuffle(self, node: CallExpr, args: tuple[Val, ...]) -> Val:
+        seed = args[1] if len(args) == 2 and node.args[1].name is not None else None
+        if not isinstance(seed, int) or isinstance(seed, bool) or not isinstance(args[0], ListValue):
+            text = "`shuffle` takes a list and `seed=`, a whole number"
+            return self._wrong(text, node.span, "as in `shuffle(tubes, seed=7)`")
+        return self._rearranged(node, len(args[0].items), args[0], lambda items: shuffled(items, seed))
+
+    def _rearranged(
+        self, node: CallExpr, cost: int, value: ListValue, make: Callable[[Sequence[Val]], Val]
+    ) -> Val:
+        return make(value.items) if self._budget.spend(cost, node.span) else POISON
 
     def _fold(self, node: CallExpr, args: tuple[Val, ...], step: Callable[[Val, Val], Val]) -> Val:
         items = args[0].items if len(args) == 1 and isinstance(args[0], ListValue) else args
