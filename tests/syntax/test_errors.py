@@ -85,7 +85,22 @@ def test_ordinary_nesting_is_fine() -> None:
         ("if a && b { }", "if a and b { }"),
         ("if a { } elif b { }", "if a { } else if b { }"),
         ("wait 5 s;", "wait 5 s"),
-        ("wait 5 s // rest", "wait 5 s # rest"),
+        ("wait 5 s // let it rest", "wait 5 s # let it rest"),
+        ("// first, rest\n wait 5 s", "# first, rest\n wait 5 s"),
+        ("pour(a=b, // half\n c=d)", "pour(a=b, # half\n c=d)"),
+        ("x = 1", "let x = 1"),
+        ("wait 5 s\n x = y", "wait 5 s\n let x = y"),
+        ("if x = 1 { }", "if x == 1 { }"),
+        ("if a&&b { }", "if a and b { }"),
+        ("if a||b { }", "if a or b { }"),
+        ("repeat 3{ }", "repeat 3 times { }"),
+        ("a();b()", "a() b()"),
+        ("let x = y;b()", "let x = y b()"),
+        ("let x = 5; m()", "let x = 5\n m()"),
+        ("wait 10 min 30 s", "wait 10 min + 30 s"),
+        ("let t = 2 * 1 h 30 min", "let t = 2 * (1 h + 30 min)"),
+        ("note 'hot'", 'note "hot"'),
+        ("note \u201chot\u201d", 'note "hot"'),
         ("warm: start heat()", "start warm: heat()"),
         ("require !a", "require not a"),
     ],
@@ -101,6 +116,27 @@ def test_safe_fixes_mend(text: str, mended: str) -> None:
     assert diagnostics == ()
     expected, _ = PARSER.module(Source("t.xei", in_protocol(mended)))
     assert ast.equal_up_to_spans(module and module.items, expected and expected.items)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "let half = n // 2",
+        "let half = n // k",
+        "let half = n // (k + 1)",
+        "wait 5 s // rest",
+        "let half = f(n) // k - 1",
+    ],
+)
+def test_what_may_be_a_division_is_no_comment_for_sure(text: str) -> None:
+    (found,) = diagnose(in_protocol(text))
+    assert found.fix is not None
+    assert found.fix.applicability == "unsafe"
+
+
+def test_quantities_of_other_dimensions_are_not_added() -> None:
+    (found,) = diagnose(in_protocol("wait 10 min 5 mL"))
+    assert found.fix is None
 
 
 @pytest.mark.parametrize(

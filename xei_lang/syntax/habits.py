@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, replace
 
 from xei_lang.diagnostics import Edit, Fix, Span
-from xei_lang.quantity import suggest_unit
+from xei_lang.quantity import Dimension, QuantityError, parse_quantity, suggest_unit
 from xei_lang.syntax.layout import line_end
 from xei_lang.syntax.lexer import STRAY, Token
 
@@ -35,8 +36,13 @@ class Habit:
         return Fix("safe" if self.certain else "unsafe", (edit,))
 
 
-_SIGNS = {"&": "and", "|": "or", "/": "#"}
+_SIGNS = {"&": "and", "|": "or"}
 _QUOTES = "'\N{LEFT SINGLE QUOTATION MARK}\N{RIGHT SINGLE QUOTATION MARK}\u201c\u201d"
+_VALUES = frozenset({"NAME", "NUMBER", "QUANTITY", "STRING", "RPAR", "RSQB"})
+_PROSE = re.compile(r"[ \t]*[A-Za-z][\w'-]*[.,:;!?]?[ \t]+[A-Za-z]")
+"""Two words with nothing between them but a space, as no expression has them."""
+_CONDITIONS = frozenset({"if", "require", "until", "keep", "given", "and", "or", "not"})
+_QUOTED = re.compile(f'[{_QUOTES}]([^{_QUOTES}"\\\\\n]*)[{_QUOTES}](?!\\w)')
 
 
 def find_habit(before: list[Token], token: Token, text: str) -> Habit | None:
@@ -44,33 +50,69 @@ def find_habit(before: list[Token], token: Token, text: str) -> Habit | None:
     found = _unit(before, token, text)
     if found is not None:
         return found
-    if token.text == "/" and before and before[-1].text == "/" and before[-1].end == token.start:
-        return replace(
-            _instead("//", "#", before[-1].start, "write `#`"), through=line_end(text, token.end)
-        )
+    if token.text == "/" and "/" in (text[token.start - 1 : token.start], text[token.end : token.end + 1]):
+        return _slashes(before, token, text)
     if token.text in _SIGNS:
         doubled = text.startswith(token.text, token.end)
         right = _SIGNS[token.text]
-        if doubled or right != "#":
-            return _instead(token.text * (1 + doubled), right, token.start, f"write `{right}`")
+        habit = _instead(token.text * (1 + doubled), right, token.start, f"write `{right}`")
+        return replace(habit, mend=_apart(right, habit, text))
+    if token.text == ";":
+        return _semicolon(before, token, text)
     if token.kind == STRAY:
-        return _stray(token)
-    return (_around_name(before, token) or _around_keyword(before, token)) if before else None
+        return _stray(token, text)
+    return (_around_name(before, token, text) or _around_keyword(before, token, text)) if before else None
 
 
-def _around_name(before: list[Token], token: Token) -> Habit | None:
+def _slashes(before: list[Token], token: Token, text: str) -> Habit:
+    """A comment of C; behind a value it may be a division of Python, unless several words follow."""
+    start = token.start - (text[token.start - 1 : token.start] == "/")
+    before = [other for other in before if other.end <= start]
+    end = line_end(text, start)
+    begins_line = not text[text.rfind("\n", 0, start) + 1 : start].strip()
+    behind_value = bool(before) and before[-1].kind in _VALUES and not begins_line
+    certain = not behind_value or bool(_PROSE.match(text, start + 2, end))
+    return replace(_instead("//", "#", start, "write `#`"), through=end, certain=certain)
+
+
+def _semicolon(before: list[Token], token: Token, text: str) -> Habit:
+    """Left out, but what it held apart stays apart: `5; m()` is no quantity, `a;b` no single word."""
+    rest = text[token.end : line_end(text, token.end)].strip()
+    mend = ""
+    if before and before[-1].kind == "NUMBER" and rest:
+        line = text.rfind("\n", 0, token.start) + 1
+        mend = "\n" + text[line : line + len(text[line:]) - len(text[line:].lstrip())]
+    habit = Habit(
+        "`;` has no place in a protocol",
+        "not needed",
+        token.start,
+        token.end,
+        ("leave it out: a step ends where the next begins",),
+    )
+    return replace(habit, mend=mend or _apart("", habit, text))
+
+
+def _apart(mend: str, habit: Habit, text: str) -> str:
+    """A mend with a space where it would otherwise grow together with a word beside it."""
+    left, right = text[: habit.start][-1:], text[habit.end :][:1]
+    if not mend:
+        return " " if _is_word(left) and _is_word(right) else ""
+    before = " " if _is_word(left) and _is_word(mend[0]) else ""
+    behind = " " if _is_word(right) and _is_word(mend[-1]) else ""
+    return f"{before}{mend}{behind}"
+
+
+def _is_word(char: str) -> bool:
+    return char.isalnum() or char == "_"
+
+
+def _around_name(before: list[Token], token: Token, text: str) -> Habit | None:
     previous = before[-1]
     if token.text == ":" and previous.kind == "NAME" and len(before) > 1 and before[-2].text in "(,":
         message = f"the argument `{previous.text}` is given with `:`"
         return Habit(message, "expected `=`", token.start, token.end, (f"write `{previous.text}=...`",), "=")
     if token.text == "=" and previous.kind == "NAME":
-        return Habit(
-            f"`{previous.text}` is given a value without `let`",
-            "no assignment can stand here",
-            previous.start,
-            token.end,
-            (f"write `let {previous.text} = ...`; a name keeps its value",),
-        )
+        return _equals(before, token, text)
     if token.kind == "COMPARISON" and any(other.kind == "COMPARISON" for other in before[-4:-1]):
         return Habit(
             "comparisons are not chained",
@@ -80,21 +122,58 @@ def _around_name(before: list[Token], token: Token) -> Habit | None:
             ("write two of them: `a < b and b < c`",),
         )
     if token.kind == "QUANTITY" and previous.kind == "QUANTITY":
-        whole = f"{previous.text} {token.text}"
-        return Habit(
-            f"`{whole}` is two quantities",
-            "expected one quantity",
-            previous.start,
-            token.end,
-            (f"write `{previous.text} + {token.text}`",),
-        )
+        return _two_quantities(before, token, text)
     return None
 
 
-def _around_keyword(before: list[Token], token: Token) -> Habit | None:
+def _equals(before: list[Token], token: Token, text: str) -> Habit:
+    """`x = 1` as a statement of Python, or for a comparison."""
+    name = before[-1]
+    earlier = before[-2] if len(before) > 1 else None
+    if earlier is not None and earlier.text in _CONDITIONS:
+        return Habit("`=` compares nothing", "expected `==`", token.start, token.end, ("write `==`",), "==")
+    begins = earlier is None or earlier.text in "{}" or "\n" in text[earlier.end : name.start]
+    return Habit(
+        f"`{name.text}` is given a value without `let`",
+        "no assignment can stand here",
+        name.start,
+        token.end,
+        (f"write `let {name.text} = ...`; a name keeps its value",),
+        f"let {name.text} =" if begins else None,
+    )
+
+
+def _two_quantities(before: list[Token], token: Token, text: str) -> Habit:
+    """`10 min 30 s`; in brackets where an operator beside it would take only one of the two."""
+    first = before[-1]
+    beside = before[-2].text if len(before) > 1 else ""
+    follows = text[token.end :].lstrip()[:1]
+    mended = f"{first.text} + {token.text}"
+    dimension = _dimension(first.text)
+    same = dimension is not None and dimension == _dimension(token.text)
+    bound = beside in ("*", "/", "-") or follows in ("*", "/")
+    return Habit(
+        f"`{first.text} {token.text}` is two quantities",
+        "expected one quantity",
+        first.start,
+        token.end,
+        (f"write `{mended}`",),
+        (f"({mended})" if bound else mended) if same else None,
+    )
+
+
+def _dimension(text: str) -> Dimension | None:
+    try:
+        return parse_quantity(text).dimension
+    except QuantityError:
+        return None
+
+
+def _around_keyword(before: list[Token], token: Token, text: str) -> Habit | None:
     previous = before[-1]
     if token.text == "{" and len(before) > 1 and before[-2].text == "repeat":
-        return Habit("`repeat` lacks its `times`", "expected `times`", token.start, token.end, (), "times {")
+        habit = Habit("`repeat` lacks its `times`", "expected `times`", token.start, token.end)
+        return replace(habit, mend=_apart("times {", habit, text))
     if previous.text == "elif":
         return Habit(
             "`elif` is no word here", "expected `else if`", previous.start, previous.end, (), "else if"
@@ -143,16 +222,7 @@ def _unit_habit(mended: str, written: str, start: int, unit: Token) -> Habit:
     )
 
 
-def _stray(token: Token) -> Habit | None:
-    if token.text == ";":
-        return Habit(
-            "`;` has no place in a protocol",
-            "not needed",
-            token.start,
-            token.end,
-            ("leave it out: a step ends where the next begins",),
-            "",
-        )
+def _stray(token: Token, text: str) -> Habit | None:
     if token.text[0] == '"':
         return Habit(
             "a text is not closed",
@@ -160,9 +230,11 @@ def _stray(token: Token) -> Habit | None:
             token.start,
             token.end,
             ("a text stays on one line",),
+            _closed(token.text),
+            certain=False,
         )
     if token.text[0] in _QUOTES:
-        return Habit("a text stands in straight double quotes", 'expected `"`', token.start, token.start + 1)
+        return _quotes(token, text)
     if token.text == "!":
         return _instead("!", "not ", token.start, "write `not`")
     if token.text[0].isdigit():
@@ -174,6 +246,18 @@ def _stray(token: Token) -> Habit | None:
         )
     shown = token.text if token.text.isprintable() else f"U+{ord(token.text[0]):04X}"
     return Habit(f"`{_short(shown)}` is no part of the language", "cannot stand here", token.start, token.end)
+
+
+def _closed(written: str) -> str:
+    """A text that was not closed, closed before the brackets and braces at the end of its line."""
+    text = written.rstrip(" \t\r)]},{")
+    return f'{text}"{written[len(text) :]}'
+
+
+def _quotes(token: Token, text: str) -> Habit:
+    habit = Habit("a text stands in straight double quotes", 'expected `"`', token.start, token.start + 1)
+    whole = _QUOTED.match(text, token.start)
+    return replace(habit, end=whole.end(), mend=f'"{whole[1]}"') if whole else habit
 
 
 def _instead(written: str, right: str, start: int, advice: str) -> Habit:
