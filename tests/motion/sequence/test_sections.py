@@ -60,4 +60,4 @@ def test_a_drive_ends_a_group() -> None:
         ("nav_to", {"station": station("bench_b")}),
     )
     shown = shape(split(goals(steps, profile, world)))
-    assert shown.index("left: chain") < shown.index("nav_to_pose") < shown.index("perceive")
+    assert shown.index("left: chain chain") < shown.index("nav_to_pose") < shown.index("perceive")
