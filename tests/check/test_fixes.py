@@ -19,6 +19,20 @@ from tests.check.checking import check, protocol
             "safe",
         ),
         ("wait 10 m", "wait 10 min", "unsafe"),
+        ("if True { wait 1 s }", "if true { wait 1 s }", "safe"),
+        ("if FALSE { wait 1 s }", "if false { wait 1 s }", "safe"),
+        ("pik(object=tube_1)", "pick(object=tube_1)", "unsafe"),
+        ("pick(object=tube_1, arm=rihgt)", "pick(object=tube_1, arm=right)", "unsafe"),
+        ("given cap(tube_1) == closd", "given cap(tube_1) == closed", "unsafe"),
+        ("given cpa(tube_1) == closed", "given cap(tube_1) == closed", "unsafe"),
+        (
+            "object x: movble = tube_1\n  pick(object=x)",
+            "object x: movable = tube_1\n  pick(object=x)",
+            "unsafe",
+        ),
+        ("if leng([1]) > 0 { wait 1 s }", "if len([1]) > 0 { wait 1 s }", "unsafe"),
+        ("wait len(rack_1.slts) * 1 s", "wait len(rack_1.slots) * 1 s", "unsafe"),
+        ('pick(object=table.spot("cups"))', 'pick(object=table.spot("cup"))', "unsafe"),
     ],
 )
 def test_a_fix_leaves_nothing_to_mend(wrong: str, right: str, applicability: str) -> None:

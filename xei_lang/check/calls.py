@@ -11,7 +11,7 @@ from xei_lang.check.effects import Effect, effects_of, moves
 from xei_lang.check.evaluate import ANY_WORD, Evaluator
 from xei_lang.check.expectation import Expectation
 from xei_lang.check.registry import Registry
-from xei_lang.check.report import Reporter, listed, meant
+from xei_lang.check.report import Reporter, guess, listed, meant
 from xei_lang.check.scope import Scope
 from xei_lang.check.state import State
 from xei_lang.check.types import ANY_ARM, Types
@@ -106,13 +106,14 @@ class Calls:
         if skill is None and not unit.complete:
             return None
         if skill is None:
+            near = did_you_mean(name, (*callable_skills, *unit.procedures))
             self._reporter.report(
                 "XEI0201",
                 f"there is no skill `{name}`",
                 call.callee.span,
                 "neither a skill of this robot nor a procedure of this file",
-                help=meant(did_you_mean(name, (*callable_skills, *unit.procedures)))
-                or (f"this robot's skills are {listed(callable_skills, 12)}",),
+                help=meant(near) or (f"this robot's skills are {listed(callable_skills, 12)}",),
+                fix=guess(call.callee.span, near),
             )
         elif not skill.exposed:
             self._reporter.report(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from xei_lang.check.expectation import Expectation
 from xei_lang.check.functions import not_yet
 from xei_lang.check.registry import Registry
-from xei_lang.check.report import Reporter, meant
+from xei_lang.check.report import Reporter, guess, meant
 from xei_lang.check.types import VALUE_TYPES
 from xei_lang.diagnostics import did_you_mean
 from xei_lang.syntax.ast import Generic, Role, TypeExpr, walk
@@ -61,10 +61,12 @@ def _unknown(
         message = f"there is no {'type or role' if also else 'role'} `{name}`"
         label = "no object has this role, and no skill asks for it"
     known = tuple(sorted(registry.roles))
+    near = did_you_mean(name, (*also, *known))
     reporter.report(
         "XEI0215",
         message,
         node.span,
         label,
-        help=meant(did_you_mean(name, (*also, *known))) or (f"roles are {', '.join(known)}",),
+        help=meant(near) or (f"roles are {', '.join(known)}",),
+        fix=guess(node.span, near),
     )

@@ -10,7 +10,7 @@ from xei_lang.check.functions import Functions
 from xei_lang.check.lists import Lists
 from xei_lang.check.places import METHODS, PROPERTIES, Places
 from xei_lang.check.registry import Registry
-from xei_lang.check.report import Reporter, listed, meant
+from xei_lang.check.report import Reporter, guess, listed, meant, replace
 from xei_lang.check.scope import Scope
 from xei_lang.check.types import ANY_ARM
 from xei_lang.check.values import (
@@ -118,7 +118,9 @@ class Evaluator:
 
     def _unknown(self, node: Name, scope: Scope, words: tuple[str, ...]) -> None:
         known = (*scope.names(), *words, *self._registry.objects, *self._registry.stations)
-        quoted = () if did_you_mean(node.id, known) else _place_habit(node.id)
+        near = did_you_mean(node.id, known)
+        lower = node.id.lower()
+        is_bool = lower in ("true", "false")
         self._reporter.report(
             "XEI0202",
             f"`{node.id}` is not known here",
@@ -126,7 +128,8 @@ class Evaluator:
             f"expected {' or '.join(f'`{word}`' for word in words)}"
             if len(words) > 1
             else "no object, station, parameter or variable has this name",
-            help=meant(did_you_mean(node.id, known)) or quoted,
+            help=(f"write `{lower}`",) if is_bool else meant(near) or _place_habit(node.id),
+            fix=replace(node.span, lower) if is_bool else guess(node.span, near),
         )
 
     def _unary(self, node: Unary, scope: Scope) -> Val:
@@ -241,8 +244,9 @@ class Evaluator:
                 f"an object has {', '.join(f'`{word}`' for word in known)}",
             )
         else:
-            shown, help = f"{kind(owner)} has no `{name}`", ()
-        self._reporter.report("XEI0319", shown, node.name.span, "no such attribute", help=help)
+            shown, help, known = f"{kind(owner)} has no `{name}`", (), ()
+        fix = guess(node.name.span, did_you_mean(name, known))
+        self._reporter.report("XEI0319", shown, node.name.span, "no such attribute", help=help, fix=fix)
         return POISON
 
     def _column(self, owner: RecordValue | TableValue, node: Attr) -> Val:
@@ -256,6 +260,7 @@ class Evaluator:
             node.name.span,
             f"its columns are {listed(tuple(columns), 12)}",
             help=meant(did_you_mean(name, columns)),
+            fix=guess(node.name.span, did_you_mean(name, columns)),
         )
         return POISON
 

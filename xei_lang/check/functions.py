@@ -9,7 +9,7 @@ from math import ceil, prod
 from xei_lang.check import arithmetic
 from xei_lang.check.budget import Budget
 from xei_lang.check.rearrange import chunks, pairs, products, shuffled
-from xei_lang.check.report import Reporter, meant
+from xei_lang.check.report import Reporter, guess, meant
 from xei_lang.check.values import POISON, ListValue, Val, a, kind
 from xei_lang.diagnostics import Span, did_you_mean
 from xei_lang.quantity import DimensionError, Quantity
@@ -88,6 +88,7 @@ class Functions:
                 function.span,
                 "not a function",
                 help=meant(did_you_mean(name, known)) or (f"there are {', '.join(self.names)}",),
+                fix=guess(function.span, did_you_mean(name, known)),
             )
         return POISON
 

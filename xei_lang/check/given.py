@@ -5,7 +5,7 @@ from __future__ import annotations
 from xei_lang.check.evaluate import Evaluator
 from xei_lang.check.expectation import Expectation
 from xei_lang.check.functions import not_yet
-from xei_lang.check.report import Reporter, listed, meant
+from xei_lang.check.report import Reporter, guess, listed, meant
 from xei_lang.check.scope import Scope
 from xei_lang.check.state import NOTHING, State
 from xei_lang.check.types import Types
@@ -103,6 +103,7 @@ class Givens:
                 f"its states are {listed(known)}",
                 notes=(self._reporter.rule(thing.registered.span),),
                 help=meant(did_you_mean(variable.id, known)),
+                fix=guess(variable.span, did_you_mean(variable.id, known)),
             )
             return
         value = self._evaluator.value(right, scope, declared.values)
@@ -118,6 +119,7 @@ class Givens:
             f"expected {' or '.join(declared.values)}",
             notes=(self._reporter.rule(declared.span),),
             help=meant(did_you_mean(show(value), declared.values)),
+            fix=guess(right.span, did_you_mean(show(value), declared.values)),
         )
 
     def _object(self, node: Expression, what: str, scope: Scope, state: State) -> ObjectValue | None:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Literal
 
 from xei_lang.check.expectation import Expectation
-from xei_lang.check.report import Reporter, listed, meant
+from xei_lang.check.report import Reporter, guess, listed, meant
 from xei_lang.check.values import POISON, ListValue, ObjectValue, PlaceValue, Val, show
 from xei_lang.diagnostics import Span, did_you_mean
 from xei_lang.profiles.grid import slot_keys
 from xei_lang.profiles.model import LabObject, SlotGrid
-from xei_lang.syntax.ast import Expression
+from xei_lang.syntax.ast import CallExpr, Expression, StringLit
 
 METHODS = ("slot", "row", "column", "spot")
 PROPERTIES = ("slots", "spots")
@@ -120,13 +120,17 @@ class Places:
             if known
             else f"`{owner.name}` has no {kind}s"
         )
+        near = _nearest(kind, key, known)
+        quoted = tuple(f'"{name}"' for name in near)
+        key_node = node.args[0].value if isinstance(node, CallExpr) and node.args else node
         self._reporter.report(
             "XEI0205",
             f"`{owner.name}` has no {kind} `{key}`",
             node.span,
             f"there is no such {kind}",
             notes=(there, *((self._reporter.rule(rule),) if rule else ())),
-            help=meant(_nearest(kind, key, known)),
+            help=meant(near),
+            fix=guess(key_node.span, quoted) if isinstance(key_node, StringLit) else None,
         )
         return POISON
 

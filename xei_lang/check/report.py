@@ -87,6 +87,11 @@ def insert(at: Span, text: str, applicability: Applicability = "safe") -> Fix:
     return replace(Span(at.file, at.start, at.start), text, applicability)
 
 
+def guess(span: Span, suggestions: tuple[str, ...]) -> Fix | None:
+    """What was probably meant where only one thing can have been, for the one who asks for such mends."""
+    return replace(span, suggestions[0], "unsafe") if len(suggestions) == 1 else None
+
+
 def listed(names: tuple[str, ...], limit: int = 6) -> str:
     """Names in backticks; a long list says how many more there are."""
     shown = ", ".join(f"`{name}`" for name in names[:limit])
