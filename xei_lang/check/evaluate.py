@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
 
 from xei_lang.check import arithmetic
 from xei_lang.check.budget import Budget
-from xei_lang.check.functions import Functions
+from xei_lang.check.functions import STATE_VARIABLES, Functions
 from xei_lang.check.lists import Lists
 from xei_lang.check.places import METHODS, PROPERTIES, Places
 from xei_lang.check.registry import Registry
@@ -50,6 +52,12 @@ from xei_lang.syntax.ast import (
     Unary,
 )
 
+if TYPE_CHECKING:
+    from xei_lang.check.conditions import Asked
+
+_THINGS = (Word, ObjectValue, PlaceValue)
+"""What a state may be: where something is can be a hand, an object's surface or a place of it."""
+
 ANY_WORD = ("*",)
 """Given as `words`: whatever the name is, it may be a word (the argument of a skill that is not known)."""
 
@@ -64,6 +72,16 @@ class Evaluator:
         self.budget = budget
         self.lists = Lists(reporter, self.value, budget)
         self._functions = Functions(reporter, budget)
+        self._asked: Asked | None = None
+
+    @contextmanager
+    def asking(self, asked: Asked) -> Generator[None]:
+        """While a condition is evaluated that may ask for states."""
+        self._asked = asked
+        try:
+            yield
+        finally:
+            self._asked = None
 
     def value(  # noqa: PLR0911, PLR0912 one return for each kind of node
         self, node: Expression | Range, scope: Scope, words: tuple[str, ...] = ()
@@ -157,14 +175,23 @@ class Evaluator:
 
         if node.op in ("==", "!="):
             left = self.value(node.left, scope)
-            right = self.value(node.right, scope)
+            right = self.value(node.right, scope, self._state_words(node.left, scope))
             if left is POISON or right is POISON:
                 return POISON
             if not (arithmetic.is_numeric(left) and arithmetic.is_numeric(right)):
                 return self._same(node, left, right)
         return self._numbers(node, scope, compare)
 
+    def _state_words(self, node: Expression, scope: Scope) -> tuple[str, ...]:
+        if self._asked is None or not isinstance(node, CallExpr) or not node.args:
+            return ()
+        return self._asked.words(node, lambda: self.value(node.args[0].value, scope))
+
     def _same(self, node: Compare, left: Val, right: Val) -> Val:
+        if self._asked is not None and isinstance(left, _THINGS) and isinstance(right, _THINGS):
+            if _is_open(left) or _is_open(right):
+                return POISON
+            return (show(left) == show(right)) == (node.op == "==")
         if kind(left) != kind(right) and not {type(left), type(right)} <= {str, Word}:
             return self._mismatch(node, left, right, f"cannot compare {kind(left)} with {kind(right)}")
         if _is_open(left) or _is_open(right):
@@ -275,6 +302,9 @@ class Evaluator:
             if function.id in self._functions.names:
                 args = tuple(self.value(arg.value, scope) for arg in node.args)
                 return self._functions.call(function, node, args)
+            if self._asked is not None and function.id in STATE_VARIABLES:
+                subject = self.value(node.args[0].value, scope) if node.args else POISON
+                return self._asked.value(function, node, subject)
             return self._functions.unknown(function, tuple(self._registry.skills))
         self._reporter.report("XEI0319", "this cannot be called", function.span, "not a function")
         return POISON

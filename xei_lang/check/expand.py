@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 
-from xei_lang.check import choices, loops, overlap, procedures, unsupported
+from xei_lang.check import choices, conditions, loops, overlap, procedures, unsupported
 from xei_lang.check.context import Context
 from xei_lang.check.effects import apply_effects, resources_of
 from xei_lang.check.labels import Labels
@@ -56,6 +56,7 @@ class Expander:
         self.loops: list[Span] = []
         self.called: set[Procedure] = set()
         self.running: list[Procedure] = []
+        self.overlapping = 0
         self._names: dict[Span, Mapping[Span, str]] = {}
         self._resources: dict[tuple[object, ...], tuple[str, ...]] = {}
 
@@ -92,7 +93,7 @@ class Expander:
             case Note() | Unmapped():
                 self.plan.remark(member, where.origin)
             case Require():
-                unsupported.refuse(self.context.reporter, member)
+                conditions.require(self, member, scope, where)
             case _:
                 self._declaration(member, scope, where)
 

@@ -69,7 +69,9 @@ class Overlap:
         expander.state, plan.tails = self._base.fork(), self._before
         outer, expander.labels = expander.labels, expander.labels.branch()
         made = len(plan.steps)
+        expander.overlapping += 1
         yield
+        expander.overlapping -= 1
         self._labels.append(expander.labels)
         expander.labels = outer
         self._states.append(expander.state)

@@ -29,6 +29,7 @@ from xei_lang.syntax.ast import (
     Parallel,
     Pause,
     Repeat,
+    Require,
     Start,
     Step,
     Stop,
@@ -60,6 +61,8 @@ class _Naming:
     def block(self, members: Iterable[Member], block: str, taken: set[str]) -> None:
         """Name the steps of a block that is no name space itself; `taken` grows by the labels used in it."""
         for member in members:
+            if isinstance(member, Require):
+                self.names[member.span] = self._count("require")
             if not isinstance(member, Step):
                 continue
             if member.label is None:

@@ -9,7 +9,7 @@ from xei_lang.check.labels import Extent, Found
 from xei_lang.diagnostics import Span
 from xei_lang.ir.skill_plan import Argument, Call, Fact, SafetyNote, StepKind, TimeConstraint, UnmappedRequest
 from xei_lang.ir.skill_plan import Step as PlanStep
-from xei_lang.syntax.ast import Note, Step, Unmapped
+from xei_lang.syntax.ast import Note, Require, Step, Unmapped
 
 _Places = set[tuple[Span, tuple[Call, ...]]]
 
@@ -31,7 +31,7 @@ class Where:
     when: tuple[str, ...] = ()
     depth: int = 0
 
-    def path(self, step: Step) -> str:
+    def path(self, step: Step | Require) -> str:
         """The path of a step here."""
         return f"{self.prefix}{self.names[step.span]}{''.join(f'[{index}]' for index in self.indices)}"
 
@@ -79,7 +79,7 @@ class PlanBuilder:
 
     def add(
         self,
-        node: Step,
+        node: Step | Require,
         kind: StepKind,
         where: Where,
         state: tuple[Fact, ...],

@@ -21,7 +21,6 @@ from xei_lang.syntax.ast import (
     Leave,
     Measure,
     Pause,
-    Require,
     Start,
     Step,
     Stop,
@@ -40,11 +39,10 @@ _WORDS: Mapping[type, tuple[str, str]] = {
     Pause: ("pause", "`pause`, opening an instrument at work,"),
     Keep: ("keep", "`keep`, a condition that holds throughout a block,"),
     Measure: ("measure", "`measure`, a value known only when it runs,"),
-    Require: ("require", "`require`, a condition on the state,"),
 }
 
 
-def refuse(reporter: Reporter, node: Action | Require) -> None:
+def refuse(reporter: Reporter, node: Action) -> None:
     """Report a construct at its keyword."""
     word, shown = _WORDS[type(node)]
     not_yet(reporter, shown, Span(node.span.file, node.span.start, node.span.start + len(word)))

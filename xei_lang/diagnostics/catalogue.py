@@ -78,6 +78,7 @@ _ENTRIES = {
     "XEI0321": Entry("calls that lie too deep in each other"),
     "XEI0322": Entry("a bound on time that nothing can meet"),
     "XEI0330": Entry("something that two branches use, which may overlap"),
+    "XEI0331": Entry("a requirement that does not hold"),
     # 05xx warnings
     "XEI0501": Entry("a declaration that nothing uses", "warning"),
     # 06xx profiles and world
