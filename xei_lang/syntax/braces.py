@@ -56,7 +56,9 @@ def find_brace_faults(tokens: Sequence[Token], text: str) -> tuple[BraceFault, .
     search.run()
     missing, extra = search.missing, search.extra
     for fault in list(extra):
-        pair = next((m for m in reversed(missing) if m.indent == fault.indent and m.index < fault.index), None)
+        pair = next(
+            (m for m in reversed(missing) if m.indent == fault.indent and m.index < fault.index), None
+        )
         if pair is not None:
             missing.remove(pair)
             extra.remove(fault)

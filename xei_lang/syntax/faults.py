@@ -8,7 +8,7 @@ from typing import Any
 
 from xei_lang.diagnostics import Diagnostic, Edit, Fix, Label, Source, Span
 from xei_lang.syntax.braces import BraceFault
-from xei_lang.syntax.habits import Habit
+from xei_lang.syntax.habit import Habit
 from xei_lang.syntax.lexer import Token
 from xei_lang.syntax.repairs import Repair
 from xei_lang.syntax.stack import Machine, Stack
@@ -51,7 +51,7 @@ class Site:
     before: tuple[Token, ...]
     token: Token
     begins_line: bool
-    opened: tuple[Token, Any] | None
+    opened: tuple[Token, Any, int] | None
     repair: Repair | None
 
 
@@ -134,7 +134,9 @@ def _slip(source: Source, site: Site) -> Diagnostic | None:
     twice = site.before[-repair.back - 1 : len(site.before) - repair.back]
     if repair.kind == "delete" and twice and twice[0].text == blamed.text:
         fix = Fix("unsafe", (Edit(span, ""),))
-        return Diagnostic("XEI0104", f"{_quoted(blamed.text)} stands here twice", span, "one too many", fix=fix)
+        return Diagnostic(
+            "XEI0104", f"{_quoted(blamed.text)} stands here twice", span, "one too many", fix=fix
+        )
     return None
 
 

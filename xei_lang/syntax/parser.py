@@ -30,8 +30,10 @@ class Parser:
         nothing could be read.
         """
         module, diagnostics = self._parse(source, "module")
-        if module is not None and not has_errors(diagnostics) and not any(
-            isinstance(item, ast.Protocol | ast.Procedure) for item in module.items
+        if (
+            module is not None
+            and not has_errors(diagnostics)
+            and not any(isinstance(item, ast.Protocol | ast.Procedure) for item in module.items)
         ):
             return None, (*diagnostics, _no_protocol(source, module))
         return module, diagnostics

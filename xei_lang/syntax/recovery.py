@@ -20,7 +20,8 @@ from typing import NamedTuple
 from xei_lang.diagnostics import Diagnostic, Diagnostics, Source, Span
 from xei_lang.syntax.braces import find_brace_faults
 from xei_lang.syntax.faults import Site, explain, explain_brace, explain_habit, too_many
-from xei_lang.syntax.habits import Habit, find_habit
+from xei_lang.syntax.habit import Habit
+from xei_lang.syntax.habits import find_habit
 from xei_lang.syntax.layout import (
     begins_line,
     indent,
@@ -36,6 +37,7 @@ from xei_lang.syntax.tables import END
 MAX_FAULTS = 100
 """After so many the rest of the file is left unread: they have a cause of their own, such as a wrong file."""
 
+_MAX_MENDS = 1_000
 _BEFORE = 10
 _BRACE = re.compile(r"\s*([{}])\s*(#.*)?$")
 _STATEMENT, _ITEM = "WAIT", "PROTOCOL"
@@ -49,8 +51,8 @@ class _Done(NamedTuple):
     opened: Opened
 
 
-Opened = tuple[Token, "Opened"] | None
-"""The innermost open bracket, and those around it."""
+Opened = tuple[Token, "Opened", int] | None
+"""The innermost open bracket, those around it, and how many braces are among them all."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,6 +90,7 @@ class _Recovery:
         self._quiet_lines: set[int] = set()
         self._quiet_at = -1
         self._doubtful = -1
+        self._mends = 0
 
     def run(self) -> Recovered:
         self._mend_braces()
@@ -99,8 +102,8 @@ class _Recovery:
                 if token.kind == END:
                     return self._recovered(whole=True)
                 self._at += 1
-            elif len(self._found) >= MAX_FAULTS:
-                self._found.append(too_many(self._source, token, MAX_FAULTS))
+            elif len(self._found) >= MAX_FAULTS or self._mends >= _MAX_MENDS:
+                self._found.append(too_many(self._source, token, len(self._found)))
                 return self._recovered(whole=False)
             elif not self._mend():
                 return self._recovered(whole=False)
@@ -124,10 +127,12 @@ class _Recovery:
     # ---- taking and giving back ----
 
     def _take(self, token: Token, stack: Stack, kind: str) -> None:
-        self._done.append(_Done(token._replace(kind=kind), self._stack, self._opened))
+        if token.kind != kind:
+            token = token._replace(kind=kind)
+        self._done.append(_Done(token, self._stack, self._opened))
         self._stack = stack
         if token.text in ("(", "[", "{"):
-            self._opened = (token, self._opened)
+            self._opened = (token, self._opened, _braces(self._opened) + (token.text == "{"))
         elif token.text in (")", "]", "}") and self._opened is not None:
             self._opened = self._opened[1]
 
@@ -167,6 +172,7 @@ class _Recovery:
 
     def _mend(self) -> bool:
         """Report the token that cannot follow and get past it; False where nothing follows any more."""
+        self._mends += 1
         before = tuple(done.token for done in self._done[-_BEFORE:])
         token = self._tokens[self._at]
         quiet = self._at == self._quiet_at or self._is_quiet(token) or self._in_doubt()
@@ -174,7 +180,7 @@ class _Recovery:
         repair = find_repair(
             self._machine, self._scanner, self._text, pairs, self._stack, self._tokens, self._at
         )
-        habit = find_habit(list(before), token, self._text)
+        habit = find_habit(before, token, self._text)
         if habit is not None and not self._is_better(repair, habit):
             if not quiet and not self._is_quiet(habit):
                 self._report(explain_habit(self._source, habit), quieten=False)
@@ -193,7 +199,9 @@ class _Recovery:
 
     def _is_better(self, repair: Repair | None, habit: Habit) -> bool:
         """Whether a repair explains more than a habit does."""
-        return repair is not None and repair.whole and (repair.at_break or not self._reaches(habit, LOOK))
+        if repair is None or not repair.whole:
+            return False
+        return repair.at_break or (habit.mend is not None and not self._reaches(habit, LOOK))
 
     def _site(self, before: tuple[Token, ...], repair: Repair | None) -> Site:
         """Where the mistake is: at the wrong token, or at the line break that lacks something before it."""
@@ -443,8 +451,4 @@ def _parts(token: Token) -> tuple[Token, ...]:
 
 
 def _braces(opened: Opened) -> int:
-    count = 0
-    while opened is not None:
-        count += opened[0].text == "{"
-        opened = opened[1]
-    return count
+    return 0 if opened is None else opened[2]

@@ -1,0 +1,123 @@
+"""Words of other languages."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from xei_lang.syntax.habit import Habit, instead
+from xei_lang.syntax.lexer import STRAY, Token
+
+_INSTEAD = {
+    "elif": "else if",
+    "elsif": "else if",
+    "elseif": "else if",
+    "def": "procedure",
+    "function": "procedure",
+    "func": "procedure",
+    "fn": "procedure",
+    "var": "let",
+    "const": "let",
+    "include": "import",
+    "assert": "require",
+    "sleep": "wait",
+    "foreach": "for",
+}
+"""Words that stand for one of the language's own, if the grammar then goes on."""
+
+_ADVICE = {
+    "while": "loops are bounded: `repeat 5 times until ready { }`",
+    "loop": "loops are bounded: `repeat 5 times { }`",
+    "return": "a procedure gives nothing back; a `measure` has a value",
+    "break": "a loop ends by its `until`: `repeat 5 times until done { }`",
+    "continue": "put the rest of the turn into an `if`",
+    "try": 'there are no exceptions; `if` on a `measure`, or `stop "why"`, decide what happens',
+    "switch": "write `if ... { } else if ... { }`",
+    "class": "a file holds protocols and procedures",
+    "from": 'procedures of another file come by `import "common/caps.xei"`',
+    "async": "branches that overlap stand in `parallel { { } { } }`",
+    "end": "a block ends in `}`",
+    "endif": "a block ends in `}`",
+    "begin": "a block begins with `{`",
+    "unless": "write `if not ... { }`",
+    "lambda": "there are no anonymous functions; write a `procedure`",
+    "print": "text for people is a `note`, or a `confirm` that waits for an answer",
+    "with": "a block that bounds its steps is `keep ... { }` or `do { } within 5 min`",
+    "then": "a block begins with `{`",
+}
+_KEYWORDS = frozenset(
+    "xei import table as protocol procedure param profile object given contains of at in for if else repeat "
+    "times until do keep pause parallel unordered start await stop leave measure confirm let require unmapped "
+    "because note within after by wait step and or not true false".split()
+)
+
+
+def find_word_habit(before: Sequence[Token], token: Token, text: str) -> Habit | None:
+    """The habit behind a wrong word, or behind the word before it, which passed for a name."""
+    if not before:
+        return _word(token, ())
+    found = _between(before, token, text) or _word(before[-1], before[:-1]) or _word(token, before)
+    return found
+
+
+def _word(token: Token, before: Sequence[Token]) -> Habit | None:
+    if token.kind != "NAME" or (before and before[-1].text in (".", "let", "param", "object", "(", ",")):
+        return None
+    lower = token.text.lower()
+    if lower in _INSTEAD:
+        right = _INSTEAD[lower]
+        return _own_word(token, f"expected `{right}`", (f"write `{right}`",), right)
+    if lower in _KEYWORDS and lower != token.text:
+        return _own_word(token, f"expected `{lower}`", ("words of the language are in small letters",), lower)
+    if token.text in _ADVICE:
+        return _own_word(token, "no such statement", (_ADVICE[token.text],), None)
+    return None
+
+
+def _own_word(token: Token, label: str, help_: tuple[str, ...], mend: str | None) -> Habit:
+    return Habit(f"`{token.text}` is no word here", label, token.start, token.end, help_, mend)
+
+
+def _between(before: Sequence[Token], token: Token, text: str) -> Habit | None:
+    previous = before[-1]
+    earlier = before[-2].text if len(before) > 1 else ""
+    if previous.text == "for" and earlier == "wait":
+        return _left_out(previous, "`wait` stands before its time alone", token.start)
+    if previous.text in ("then", "do") and token.text == "{" and previous.kind == "NAME":
+        return _left_out(previous, f"no `{previous.text}` stands before a block", token.start)
+    if token.text == "{" and earlier == "repeat":
+        return Habit("`repeat` lacks its `times`", "expected `times`", token.start, token.end, (), "times {")
+    if previous.text == "repeat" and token.kind == STRAY and token.text.rstrip("xX").isdigit():
+        right = f"{token.text.rstrip('xX')} times"
+        return Habit(
+            f"`{token.text}` is not a number", f"expected `{right}`", token.start, token.end, (), right
+        )
+    if (
+        token.text == "to"
+        and previous.kind in ("NUMBER", "QUANTITY")
+        and any(o.text == "in" for o in before[-4:])
+    ):
+        return instead("to", "..", token.start, "a range is written `1 .. 8`")
+    if previous.text == "import" and token.kind == "NAME":
+        right = f'"{token.text}.xei"'
+        help_ = (f"name a file by its path: `import {right}`",)
+        return Habit(
+            "an import names a file", "expected a text in quotes", token.start, token.end, help_, right, False
+        )
+    if previous.text == "start" and len(before) > 2 and earlier == ":":
+        return _late_label(before[-3], previous, token)
+    return None
+
+
+def _left_out(word: Token, message: str, until: int) -> Habit:
+    return Habit(message, "not needed", word.start, until, (f"leave `{word.text}` out",), "")
+
+
+def _late_label(label: Token, start: Token, token: Token) -> Habit:
+    return Habit(
+        "the label of a `start` stands behind that word",
+        "expected a label after `start`",
+        label.start,
+        start.end,
+        (f"write `start {label.text}: {token.text}`",),
+        f"start {label.text}:",
+    )
