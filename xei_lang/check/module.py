@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from xei_lang.check.allow import allowed
 from xei_lang.check.binding import CheckOptions
 from xei_lang.check.context import Context, make_context
 from xei_lang.check.expand import Expander
@@ -68,7 +69,7 @@ def check_module(
             check_alone(alone, procedure)
             expander.called |= alone.called
     context.usage.warn(context.reporter, source.file)
-    diagnostics = context.reporter.diagnostics
+    diagnostics = allowed(module, source, context.reporter.diagnostics)
     return (None if has_errors(diagnostics) else plan), diagnostics
 
 

@@ -81,6 +81,8 @@ _ENTRIES = {
     "XEI0331": Entry("a requirement that does not hold"),
     # 05xx warnings
     "XEI0501": Entry("a declaration that nothing uses", "warning"),
+    "XEI0502": Entry("an allow without a reason", "warning"),
+    "XEI0503": Entry("an allow that silences nothing", "warning"),
     # 06xx profiles and world
     "XEI0601": Entry("a profile cannot be found"),
     "XEI0602": Entry("a file of a profile cannot be read"),
