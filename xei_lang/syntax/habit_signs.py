@@ -47,6 +47,18 @@ def find_sign_habit(before: Sequence[Token], token: Token, text: str) -> Habit |
         return _slashes(before, token, text)
     if token.text == ";":
         return _semicolon(before, token, text)
+    if token.text == "/" and text.startswith("*", token.end):
+        help_ = ("a comment is a line that begins with `#`",)
+        return Habit("`/*` begins no comment here", "expected `#`", token.start, token.end + 1, help_)
+    if (
+        token.text in ("+", "-")
+        and before
+        and before[-1].kind == "NAME"
+        and text[token.end :][:1] == token.text
+    ):
+        help_ = ("a name keeps its value; make a new one with `let`",)
+        message = f"`{token.text * 2}` changes nothing here"
+        return Habit(message, "no such operator", token.start, token.end + 1, help_)
     joined = bool(before) and before[-1].end == token.start
     if joined:
         found = _pair(before[-1], token, text)
@@ -86,14 +98,6 @@ def _semicolon(before: Sequence[Token], token: Token, text: str) -> Habit:
 
 def _pair(previous: Token, token: Token, text: str) -> Habit | None:
     pair = (previous.text, token.text)
-    if pair == ("/", "*"):
-        return Habit(
-            "`/*` begins no comment here",
-            "expected `#`",
-            previous.start,
-            token.end,
-            ("a comment is a line that begins with `#`",),
-        )
     if pair == ("*", "*"):
         return Habit("there is no power `**`", "no such operator", previous.start, token.end)
     if pair in (("-", ">"), ("=", ">")) and previous.text == "-":
@@ -111,20 +115,6 @@ def _pair(previous: Token, token: Token, text: str) -> Habit | None:
         )
     if pair in _PAIRS:
         return instead("".join(pair), _PAIRS[pair][0], previous.start, _PAIRS[pair][1])
-    if pair in (("+", "+"), ("-", "-")):
-        help_ = ("a name keeps its value; make a new one with `let`",)
-        return Habit(
-            f"`{''.join(pair)}` changes nothing here", "no such operator", previous.start, token.end, help_
-        )
-    if token.kind == "STRING" and previous.text in ("f", "r", "b", "F"):
-        help_ = ("a text stands as it is written",)
-        return Habit(
-            f"`{previous.text}` before a text means nothing",
-            "not needed",
-            previous.start,
-            previous.end,
-            help_,
-        )
     if token.text[:1] == '"' and previous.text == '""':
         help_ = ("text for readers is a comment: `##` before what it explains, or `note`",)
         return Habit(

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from xei_lang.quantity import Dimension, QuantityError, parse_quantity, suggest_unit
 from xei_lang.syntax.habit import Habit, instead
 from xei_lang.syntax.lexer import STRAY, Token
 
+_TIMES_G = re.compile(r"[xX\N{MULTIPLICATION SIGN}][ \t]*g(?!\w)")
+_CELSIUS = re.compile(r"[ \t]*[cC](?:elsius)?(?!\w)")
+_PART = re.compile(r"\.[0-9]+(?:[ \t]*[A-Za-z]+(?![\w(:=]))?")
+_COMMA_PART = re.compile(r",[0-9]+(?:[ \t]*[A-Za-z]+(?![\w(:=]))?")
 _RATE = re.compile(r"\S+?/[A-Za-z]+[0-9]?(?![\w/])|\w+\^2|\w+/s\N{SUPERSCRIPT TWO}")
 
 
@@ -28,45 +32,47 @@ def _unit(before: Sequence[Token], token: Token, text: str) -> Habit | None:
 
     A wrong unit may pass for the name of the next step, so that the token after it is the one that fails.
     """
-    for number, unit in ((before[-1:], token), (before[-2:-1], before[-1] if before else token)):
-        if not number or number[0].kind != "NUMBER" or "\n" in text[number[0].end : unit.start]:
-            continue
-        if unit.kind not in ("NAME", STRAY):
+    for number, unit in _numbers(before, token, text):
+        if number.kind != "NUMBER" or unit.kind not in ("NAME", STRAY):
             continue
         rate = _RATE.match(text, unit.start)
         for written in (rate[0] if rate else "", unit.text):
-            better = suggest_unit(written)
-            if better is not None and written:
+            better = _better(written)
+            if better is not None:
                 end = unit.start + len(written)
-                return _unit_habit(f"{number[0].text} {better}", written, number[0].start, end)
+                return _unit_habit(f"{number.text} {better}", written, number.start, end)
     return None
+
+
+def _better(written: str) -> str | None:
+    """The unit that is meant, also where only one side of a rate is wrong."""
+    if not written:
+        return None
+    above, slash, below = written.partition("/")
+    known = suggest_unit(written)
+    if known is not None or not slash:
+        return known
+    return suggest_unit(f"{suggest_unit(above) or above}/{suggest_unit(below) or below}")
 
 
 def _spaced(before: Sequence[Token], token: Token, text: str) -> Habit | None:
     """`3000 x g`, `37 deg C`: units that are written apart."""
-    last = [*before[-3:], token]
-    for unit, words, number in (
-        ("xg", ("x", "g"), "NUMBER"),
-        ("xg", ("\N{MULTIPLICATION SIGN}", "g"), "NUMBER"),
-    ):
-        for at in range(len(last) - 2):
-            one, two, three = last[at : at + 3]
-            if (
-                one.kind == number
-                and (two.text, three.text) == words
-                and "\n" not in text[one.start : three.end]
-            ):
-                return _unit_habit(f"{one.text} {unit}", f"{two.text} {three.text}", one.start, three.end)
-    for at in range(len(last) - 1):
-        one, two = last[at : at + 2]
-        if (
-            one.kind == "QUANTITY"
-            and one.text.endswith("deg")
-            and two.text in ("C", "c", "Celsius", "celsius")
-        ):
-            number = one.text.removesuffix("deg").strip()
-            return _unit_habit(f"{number} degC", f"deg {two.text}", one.start, two.end)
+    for number, word in _numbers(before, token, text):
+        apart, unit = (_TIMES_G, "xg") if number.kind == "NUMBER" else (_CELSIUS, "degC")
+        found = apart.match(text, word.start)
+        if found is not None and (unit == "xg" or number.text.endswith("deg")):
+            digits = number.text.removesuffix("deg").rstrip()
+            written = text[number.start + len(digits) : found.end()].strip()
+            return _unit_habit(f"{digits} {unit}", written, number.start, found.end())
     return None
+
+
+def _numbers(before: Sequence[Token], token: Token, text: str) -> Iterator[tuple[Token, Token]]:
+    """A number and the word behind it on its line: the wrong token, or the one before it."""
+    for number, word in ((before[-1:], token), (before[-2:-1], before[-1] if before else token)):
+        if number and number[0].kind in ("NUMBER", "QUANTITY"):
+            if "\n" not in text[number[0].end : word.start]:
+                yield number[0], word
 
 
 def _joined(token: Token) -> Habit | None:
@@ -116,13 +122,18 @@ def _dimension(text: str) -> Dimension | None:
 
 def _decimal(before: Sequence[Token], token: Token, text: str) -> Habit | None:
     """`1,5 mL` and `.5 mL`."""
-    following = text[token.end : token.end + 1]
-    if token.text == "." and following.isdigit():
-        return instead(".", "0.", token.start, "write a zero before the point")
-    if token.text == "," and following.isdigit() and before and before[-1].end == token.start:
-        if before[-1].kind == "NUMBER":
-            return instead(",", ".", token.start, "decimals stand behind a point", certain=False)
-    return None
+    if not before or before[-1].end != token.start:
+        part = _PART.match(text, token.start)
+        if part is None:
+            return None
+        return instead(part[0], f"0{part[0]}", token.start, "write a zero before the point")
+    first = before[-1]
+    part = _COMMA_PART.match(text, token.start)
+    if part is None or first.kind != "NUMBER":
+        return None
+    written = first.text + part[0]
+    right = f"{first.text}.{part[0][1:]}"
+    return instead(written, right, first.start, "decimals stand behind a point", certain=False)
 
 
 def _unit_habit(mended: str, written: str, start: int, end: int) -> Habit:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from xei_lang.syntax.habit import Habit, instead
@@ -44,6 +45,7 @@ _ADVICE = {
     "with": "a block that bounds its steps is `keep ... { }` or `do { } within 5 min`",
     "then": "a block begins with `{`",
 }
+_BRACE = re.compile(r"[ \t]*(?=\{)")
 _KEYWORDS = frozenset(
     "xei import table as protocol procedure param profile object given contains of at in for if else repeat "
     "times until do keep pause parallel unordered start await stop leave measure confirm let require unmapped "
@@ -51,12 +53,11 @@ _KEYWORDS = frozenset(
 )
 
 
-def find_word_habit(before: Sequence[Token], token: Token, text: str) -> Habit | None:
+def find_word_habit(before: Sequence[Token], token: Token) -> Habit | None:
     """The habit behind a wrong word, or behind the word before it, which passed for a name."""
     if not before:
         return _word(token, ())
-    found = _between(before, token, text) or _word(before[-1], before[:-1]) or _word(token, before)
-    return found
+    return _word(before[-1], before[:-1]) or _word(token, before)
 
 
 def _word(token: Token, before: Sequence[Token]) -> Habit | None:
@@ -77,13 +78,21 @@ def _own_word(token: Token, label: str, help_: tuple[str, ...], mend: str | None
     return Habit(f"`{token.text}` is no word here", label, token.start, token.end, help_, mend)
 
 
-def _between(before: Sequence[Token], token: Token, text: str) -> Habit | None:
+def find_pair_habit(before: Sequence[Token], token: Token, text: str) -> Habit | None:
+    """The habit that shows in a word and what stands beside it."""
+    if not before:
+        return None
     previous = before[-1]
     earlier = before[-2].text if len(before) > 1 else ""
     if previous.text == "for" and earlier == "wait":
         return _left_out(previous, "`wait` stands before its time alone", token.start)
-    if previous.text in ("then", "do") and token.text == "{" and previous.kind == "NAME":
-        return _left_out(previous, f"no `{previous.text}` stands before a block", token.start)
+    if token.text in ("then", "do") and (brace := _BRACE.match(text, token.end)):
+        return _left_out(token, f"no `{token.text}` stands before a block", brace.end())
+    if token.text in ("f", "r", "b") and text.startswith('"', token.end):
+        help_ = ("a text stands as it is written; leave the letter out",)
+        return Habit(
+            f"`{token.text}` before a text means nothing", "not needed", token.start, token.end, help_
+        )
     if token.text == "{" and earlier == "repeat":
         return Habit("`repeat` lacks its `times`", "expected `times`", token.start, token.end, (), "times {")
     if previous.text == "repeat" and token.kind == STRAY and token.text.rstrip("xX").isdigit():

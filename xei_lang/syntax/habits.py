@@ -8,7 +8,7 @@ from dataclasses import replace
 from xei_lang.syntax.habit import Habit, instead
 from xei_lang.syntax.habit_signs import find_sign_habit
 from xei_lang.syntax.habit_units import find_unit_habit
-from xei_lang.syntax.habit_words import find_word_habit
+from xei_lang.syntax.habit_words import find_pair_habit, find_word_habit
 from xei_lang.syntax.lexer import Token
 
 
@@ -16,8 +16,9 @@ def find_habit(before: Sequence[Token], token: Token, text: str) -> Habit | None
     """The habit behind a wrong token, given what stands before it; None where none is known."""
     found = (
         find_unit_habit(before, token, text)
+        or find_pair_habit(before, token, text)
         or find_sign_habit(before, token, text)
-        or find_word_habit(before, token, text)
+        or find_word_habit(before, token)
         or (_around_name(before, token, text) if before else None)
     )
     return None if found is None else _kept_apart(found, text)
