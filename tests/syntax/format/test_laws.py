@@ -9,7 +9,8 @@ from hypothesis import HealthCheck, given, settings
 
 from tests.syntax import corpus
 from tests.syntax.programs import programs
-from xei_lang.diagnostics import Source
+from tests.syntax.test_properties import mutated
+from xei_lang.diagnostics import Source, has_errors
 from xei_lang.syntax import Parser, ast
 from xei_lang.syntax.format import Formatter
 from xei_lang.syntax.lexer import Scanner
@@ -62,3 +63,11 @@ def test_laws_hold_for_each_construct(text: str) -> None:
 @given(programs())
 def test_laws_hold_for_made_up_programs(text: str) -> None:
     assert_laws(text)
+
+
+@given(mutated())
+def test_no_text_makes_the_formatter_raise(text: str) -> None:
+    result, diagnostics = FORMATTER.format(Source("t.xei", text))
+    assert (result is None) == has_errors(diagnostics)
+    if result is not None:
+        assert_laws(text)

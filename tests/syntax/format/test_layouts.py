@@ -12,7 +12,8 @@ from xei_lang.diagnostics import Source
 from xei_lang.syntax.format import WIDTH, Formatter, format_source
 
 ROOT = Path(__file__).parents[3]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("**/*.md"))]
+BLOCK = re.compile(r"^```xei\n(.*?)^```", re.DOTALL | re.MULTILINE)
 PIECE = "protocol piece {{\n{}}}\n"
 WHOLE = re.compile(r"^(xei \d|import|protocol|procedure)\b", re.MULTILINE)
 FORMATTER = Formatter()
