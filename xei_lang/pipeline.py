@@ -49,6 +49,7 @@ class Handoffs:
     """The representations made so far; each pass fills in one."""
 
     module: Module | None = None
+    imported: tuple[Source, ...] = ()
     profile: Profile | None = None
     plan: SkillPlan | None = None
     world: World | None = None
@@ -139,20 +140,22 @@ def _check(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
     """`Module` to `SkillPlan`: names, types, roles, expansion."""
     from xei_lang.check import CheckOptions, check_module
     from xei_lang.profiles.sources import profile_sources
+    from xei_lang.syntax.loading import RecordedFiles
     from xei_lang.syntax.project import ProjectFiles
 
     assert made.module is not None
     assert made.profile is not None
+    files = RecordedFiles(ProjectFiles(Path(request.source.file)))
     options = CheckOptions(
         bindings=dict(request.bindings),
         params=dict(request.params),
         open_bindings=request.open_bindings,
         max_steps=request.max_steps,
         sources=profile_sources(made.profile),
-        files=ProjectFiles(Path(request.source.file)),
+        files=files,
     )
     plan, said = check_module(made.module, request.source, made.profile, options)
-    return replace(made, plan=plan), said
+    return replace(made, plan=plan, imported=files.sources), said
 
 
 def _admit(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:

@@ -77,3 +77,27 @@ def test_only_the_form_goes_to_standard_output(tmp_path: Path) -> None:
     plan = json.loads(ran.out)
     assert [call["skill"] for call in plan["skill_calls"]] == ["pick", "insert"]
     assert not list(tmp_path.glob("build"))
+
+
+def test_every_file_that_was_read_is_an_input(tmp_path: Path) -> None:
+    (tmp_path / "profiles").symlink_to(PROTOCOLS.parent / "profiles")
+    (tmp_path / "lib").mkdir()
+    (tmp_path / "lib" / "rest.xei").write_text("procedure rest(t: Time) {\n  wait t\n}\n")
+    (tmp_path / "times.csv").write_text("pause [s]\n2\n")
+    (tmp_path / "main.xei").write_text(
+        'import "lib/rest.xei"\nimport table "times.csv" as times\n\n'
+        'protocol rests {\n  profile "openarm_bench"\n  for t in times.pause {\n    rest(t=t)\n  }\n}\n'
+    )
+    ran = xei("compile", "main.xei", "-o", "out", cwd=tmp_path)
+    assert ran.code == 0, ran.err
+    inputs = json.loads((tmp_path / "out" / "manifest.json").read_text(encoding="utf-8"))["inputs"]
+    rest = hashlib.sha256((tmp_path / "lib" / "rest.xei").read_bytes()).hexdigest()
+    assert inputs["import/lib/rest.xei"] == rest
+    assert "import/times.csv" in inputs
+
+
+def test_the_syntax_tree_can_be_printed_without_a_profile(tmp_path: Path) -> None:
+    (tmp_path / "alone.xei").write_text('protocol alone {\n  profile "nowhere"\n  wait 1 s\n}\n')
+    ran = xei("compile", "alone.xei", "--emit", "ast", cwd=tmp_path)
+    assert ran.code == 0, ran.err
+    assert "Wait" in ran.out

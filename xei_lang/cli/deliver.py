@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -28,6 +29,7 @@ class Compiled:
     """A compilation that went the whole way: every handoff is there."""
 
     source: Source
+    imported: tuple[Source, ...]
     profile: Profile
     plan: SkillPlan
     world: World
@@ -42,7 +44,7 @@ class Compiled:
         assert made.world is not None
         assert made.graph is not None
         assert made.timed is not None
-        return Compiled(source, made.profile, made.plan, made.world, made.graph, made.timed)
+        return Compiled(source, made.imported, made.profile, made.plan, made.world, made.graph, made.timed)
 
     def forms(self) -> dict[str, str]:
         """The plans in their fixed forms, by the file names that they have in a bundle."""
@@ -66,8 +68,18 @@ class Compiled:
         }
 
     def manifest(self, seed: int) -> Manifest:
-        """The manifest but for the hashes of the bundle's files; inputs are named relative to the profile."""
+        """The manifest but for the hashes of the bundle's files; no input is named by an absolute path.
+
+        Imported files and tables are named as seen from the protocol, files of the profile from its folder.
+        """
+        here = os.path.dirname(self.source.file)
         inputs = {"protocol.xei": _sha256(self.source.text)}
+        inputs.update(
+            {
+                f"import/{os.path.relpath(file.file, here or '.')}": _sha256(file.text)
+                for file in self.imported
+            }
+        )
         inputs.update({f"profile/{file}": digest for file, digest in self.profile.files})
         blockers = deployment_blockers(self.profile)
         return Manifest(

@@ -11,11 +11,13 @@ from xei_lang.cli.handoff_lines import line
 from xei_lang.diagnostics import Diagnostics, Source
 from xei_lang.pipeline import ALL, FRONT, Handoffs, Pass, PassResult, Request
 
-EMITTED = ("plan", "goals", "dot", "timed", "bag")
+EMITTED = ("ast", "plan", "goals", "dot", "timed", "bag")
 
 
 def passes_for(stage: str | None) -> tuple[Pass, ...]:
     """The passes that a representation needs; the whole way where a bundle is asked for."""
+    if stage == "ast":
+        return FRONT[:1]
     if stage == "plan":
         return FRONT
     if stage in ("goals", "dot"):
@@ -25,6 +27,11 @@ def passes_for(stage: str | None) -> tuple[Pass, ...]:
 
 def text_of(stage: str, request: Request, made: Handoffs) -> str:
     """The fixed form of a representation (docs/cli.md)."""
+    if stage == "ast":
+        from xei_lang.syntax import dump
+
+        assert made.module is not None
+        return dump.to_text(made.module, request.source)
     from xei_lang.ir.forms import goals_json, plan_json, timed_json
     from xei_lang.ir.forms.canonical import dumps
 

@@ -38,3 +38,27 @@ class Files(Protocol):
     def read(self, importing: str, path: str) -> LoadedFile | Unusable:
         """The file that `path` means in the file `importing`."""
         ...
+
+
+class RecordedFiles:
+    """Files of a project that remember what was read of them, for those who must name every input."""
+
+    def __init__(self, files: Files) -> None:
+        self._files = files
+        self._read: dict[str, Source] = {}
+
+    @property
+    def sources(self) -> tuple[Source, ...]:
+        """The texts that were read, by the files' names as messages show them."""
+        return tuple(self._read[file] for file in sorted(self._read))
+
+    def identity(self, file: str) -> str:
+        """What tells a file from all others, by the name that its `Source` carries."""
+        return self._files.identity(file)
+
+    def read(self, importing: str, path: str) -> LoadedFile | Unusable:
+        """The file that `path` means in the file `importing`, remembered where it could be read."""
+        found = self._files.read(importing, path)
+        if isinstance(found, LoadedFile):
+            self._read[found.source.file] = found.source
+        return found
