@@ -1,11 +1,12 @@
 """Slips of the hand, put into protocols that are right, and how well the parser finds them.
 
-    python -m tests.syntax.mistakes
+    python -m tests.syntax.mistakes [-v]
 
-prints the rates. A slip changes one place of one line so that the text no longer follows the grammar (a change that
-leaves it valid is drawn anew). It is found if a diagnostic points into its line. A brace that is dropped leaves
-no line of its own, so it is found if the diagnostic points at its line or at the next written line above or below.
-A diagnostic is spurious if it points at no slip, or at one that another has told of.
+prints the rates, and with -v where something went wrong. A slip changes one place of one line so that the
+text no longer follows the grammar; a change that leaves it valid is drawn anew. It is found if a diagnostic
+points into its line. A brace that is dropped leaves no line of its own: it is found if the diagnostic points
+at its line, or at the next written line above or below. A diagnostic is spurious if it points at no slip, or
+at one that another has told of.
 """
 
 from __future__ import annotations
@@ -24,10 +25,41 @@ PARSER = Parser()
 PROTOCOLS = Path(__file__).parents[2] / "protocols"
 SEED = 20
 _TOKEN = re.compile(r'#[^\n]*|"[^"\n]*"|\d+(?:\.\d+)?|\w+|\.\.|[=!<>:+-]=|[^\s\w]')
-_KEYWORDS = (
-    "for in times wait let require measure repeat parallel if else do keep pause start await stop confirm "
-    "unmapped because note profile param object given contains of within after by until unordered protocol"
-).split()
+_KEYWORDS = [
+    "for",
+    "in",
+    "times",
+    "wait",
+    "let",
+    "require",
+    "measure",
+    "repeat",
+    "parallel",
+    "if",
+    "else",
+    "do",
+    "keep",
+    "pause",
+    "start",
+    "await",
+    "stop",
+    "confirm",
+    "unmapped",
+    "because",
+    "note",
+    "profile",
+    "param",
+    "object",
+    "given",
+    "contains",
+    "of",
+    "within",
+    "after",
+    "by",
+    "until",
+    "unordered",
+    "protocol",
+]
 _INSERTED = ["=", ",", ")", "(", "]", ":", "..", "==", "5", "x", '"a"', "*", "]", "@", "%", "'", "?", "$"]
 
 
@@ -69,10 +101,18 @@ def _composed(rng: random.Random) -> str:
         chosen = rng.choice(members)
         if chosen.startswith("#"):
             chosen = "# a comment\nhome()"
-        body += _laid_out(chosen, 1) if rng.random() < 0.6 else [f"  {part.strip()}" for part in chosen.split("\n")]
+        body += (
+            _laid_out(chosen, 1)
+            if rng.random() < 0.6
+            else [f"  {part.strip()}" for part in chosen.split("\n")]
+        )
         if rng.random() < 0.3:
             inner = [line for _ in range(rng.randint(1, 3)) for line in _laid_out(_step(rng), 2)]
-            body += [f"  {rng.choice(['do {', 'for i in 1 .. 8 {', 'if ready {', 'repeat 3 times {'])}", *inner, "  }"]
+            body += [
+                f"  {rng.choice(['do {', 'for i in 1 .. 8 {', 'if ready {', 'repeat 3 times {'])}",
+                *inner,
+                "  }",
+            ]
     return "\n".join(["xei 1", "", "protocol p {", '  profile "openarm_bench"', *body, "}", ""])
 
 
@@ -124,7 +164,9 @@ def _misspelt(rng: random.Random, line: str) -> str | None:
         return None
     word = match[0]
     at = rng.randrange(len(word))
-    return _cut(line, match, rng.choice([word[:at] + word[at + 1 :], word[:at] + word[at] * 2 + word[at + 1 :]]))
+    return _cut(
+        line, match, rng.choice([word[:at] + word[at + 1 :], word[:at] + word[at] * 2 + word[at + 1 :]])
+    )
 
 
 def _swapped(rng: random.Random, line: str) -> str | None:
@@ -143,7 +185,7 @@ def _put_in(rng: random.Random, line: str) -> str | None:
 
 
 def _quote(rng: random.Random, line: str) -> str | None:
-    at = [index for index, char in enumerate(line.split("#")[0]) if char == '"']
+    at = [index for index, char in enumerate(line.split("#", maxsplit=1)[0]) if char == '"']
     if not at:
         return None
     index = rng.choice(at)
@@ -214,7 +256,9 @@ def slip(rng: random.Random, lines: list[str], kind: str, taken: frozenset[int] 
             continue
         before, lines[index] = lines[index], changed
         if is_wrong(lines):
-            first, last = (_written(lines, index, -1), _written(lines, index, 1)) if "brace" in kind else (index, index)
+            first, last = (
+                (_written(lines, index, -1), _written(lines, index, 1)) if "brace" in kind else (index, index)
+            )
             return Slip(kind, index + 1, first + 1, last + 1)
         lines[index] = before
     return None
@@ -228,7 +272,7 @@ def _written(lines: list[str], index: int, step: int) -> int:
 
 
 def score(lines: list[str], slips: list[Slip], scores: dict[str, Score]) -> list[str]:
-    """Parse, and match what is said with the slips; gives the messages that match none, and what was missed."""
+    """Parse, and match what is said with the slips; gives what matches none, and what was missed."""
     source = Source("t.xei", "\n".join(lines))
     _, said = PARSER.module(source)
     waiting = list(slips)
@@ -251,7 +295,9 @@ def score(lines: list[str], slips: list[Slip], scores: dict[str, Score]) -> list
     return notes + [f"missed {one}" for one in waiting]
 
 
-def measure(mistakes: int, files: int, seed: int = SEED) -> tuple[dict[str, Score], list[tuple[str, list[str]]]]:
+def measure(
+    mistakes: int, files: int, seed: int = SEED
+) -> tuple[dict[str, Score], list[tuple[str, list[str]]]]:
     """The scores of so many files with so many mistakes each, and the texts where something went wrong."""
     rng = random.Random(seed)
     scores = {name: Score() for name in (*KINDS, "all")}
@@ -294,7 +340,7 @@ def main() -> int:
         print(f"{title} in each of {files} files")
         for name, one in scores.items():
             if one.slips:
-                print(f"  {name:18} {one.found:4} of {one.slips:4} on the right line ({one.found / one.slips:.1%})")
+                print(f"  {name:18} {one.found:4} of {one.slips:4} found ({one.found / one.slips:.1%})")
         print(f"  spurious           {total.spurious:4} ({total.spurious / total.files:.3f} a file)")
         if "-v" in sys.argv:
             for text, notes in bad:

@@ -91,7 +91,7 @@ class _Loading:
         label = Label(node.path.span, "imported here")
         for item in said:
             self.reporter.keep(_with(item, label))
-        if module is None:
+        if module is None or module.damaged:
             return None
         unit = self.unit(module, loaded.source, loaded.identity, node)
         if not unit.own and not has_errors(said):

@@ -16,7 +16,9 @@ from xei_lang.syntax.layout import begins_line, indent, looks_like_statement
 from xei_lang.syntax.lexer import Token
 from xei_lang.syntax.tables import END
 
-_HEADERS = frozenset("for repeat if keep pause do parallel protocol procedure else".split())
+_HEADERS = frozenset(
+    ["for", "repeat", "if", "keep", "pause", "do", "parallel", "protocol", "procedure", "else"]
+)
 _FEW = 3
 _LINES_FOR_EACH = 8
 """Where more faults show than one in so many lines, it is the indentation that has no order."""
@@ -37,7 +39,7 @@ class BraceFault:
 
 @dataclass(slots=True)
 class _Open:
-    """A block that is open: the indentation and number of its line, its brace, and how far its lines stand in.
+    """A block that is open: indentation and number of its line, its brace, how far its lines stand in.
 
     `fault` is there for a block whose brace is missing; `loose` if only the indentation says that it exists.
     """
@@ -55,6 +57,9 @@ def find_brace_faults(tokens: Sequence[Token], text: str) -> tuple[BraceFault, .
     search = _Search(tokens, text)
     search.run()
     missing, extra = search.missing, search.extra
+    allowed = abs(search.balance) + max(1, search.lines // _LINES_FOR_EACH)
+    if len(missing) + len(extra) > allowed:
+        return ()
     for fault in list(extra):
         pair = next(
             (m for m in reversed(missing) if m.indent == fault.indent and m.index < fault.index), None
@@ -153,7 +158,7 @@ class _Search:
             self._open.append(_Open(top.inner, number, None, width, fault, loose=True))
 
     def _where(self, index: int, opened: _Open) -> int:
-        """Before the line; within the line of the open brace if all of its block is there, as at its `else`."""
+        """Before the line; within that of the open brace if an `else` shows the end of its block there."""
         token = opened.token
         if token is None or "\n" in self._text[token.start : self._tokens[index - 1].start]:
             return index
@@ -210,14 +215,18 @@ class _Search:
             return "inline"
         if end >= len(tokens) or tokens[end].kind == END:
             return ""
-        below = indent(tokens[end], self._text)
-        if tokens[end].text == "}":
-            return "below" if below == width else ""
-        if below <= width:
-            return ""
-        if tokens[end].text == "{":
-            return "below" if words[0] == "parallel" else ""
-        return "below" if looks_like_statement(tokens, end) or not self._has_opening(end) else ""
+        return "below" if self._is_body(end, width, words[0]) else ""
+
+    def _is_body(self, begin: int, width: int, header: str) -> bool:
+        """Whether the line below a header that has no brace is the first of its block, or its end."""
+        first = self._tokens[begin]
+        below = indent(first, self._text)
+        if first.text == "}":
+            return below == width
+        if first.text == "{":
+            return below > width and header == "parallel"
+        starts = looks_like_statement(self._tokens, begin) or not self._has_opening(begin)
+        return below > width and starts
 
     def _has_opening(self, begin: int) -> bool:
         """Whether a line holds an open brace, as the second line of a long header does."""

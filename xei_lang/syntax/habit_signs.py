@@ -13,11 +13,15 @@ from xei_lang.syntax.lexer import STRAY, Token
 _VALUES = frozenset({"NAME", "NUMBER", "QUANTITY", "STRING", "RPAR", "RSQB"})
 _PROSE = re.compile(r"[ \t]*[A-Za-z][\w'-]*[.,:;!?]?[ \t]+[A-Za-z]")
 """Two words with nothing between them but a space, as no expression has them."""
-_SIGNS = {"&": "and", "|": "or"}
-_PAIRS = {
+_SIGNS = {"&": "and", "|": "or", "&&": "and", "||": "or"}
+_INSTEAD = {
     ("<", ">"): ("!=", "write `!=`"),
-    ("=", ">"): (">=", "write `>=`"),
-    ("=", "<"): ("<=", "write `<=`"),
+    ("..", "."): ("..", "write `..`; both ends are included"),
+}
+_NOTHING = {
+    ("*", "*"): ("there is no power `**`", "multiply"),
+    ("-", ">"): ("`->` means nothing here", "what goes where is said by named arguments: `pour(source=a)`"),
+    ("..", "<"): ("a range always holds both of its ends", "write `0 .. 7` for eight values"),
 }
 _TYPED = {
     "\N{GREATER-THAN OR EQUAL TO}": ">=",
@@ -41,37 +45,50 @@ _QUOTED = re.compile(rf'[{_QUOTES}]([^{_QUOTES}"\n\\]*)[{_QUOTES}](?!\w)')
 
 def find_sign_habit(before: Sequence[Token], token: Token, text: str) -> Habit | None:
     """The habit behind a wrong sign; None where none is known."""
-    if token.text == "//" or (
-        token.text == "/" and "/" in (text[token.start - 1 : token.start], text[token.end : token.end + 1])
-    ):
-        return _slashes(before, token, text)
-    if token.text == ";":
-        return _semicolon(before, token, text)
-    if token.text == "/" and text.startswith("*", token.end):
-        help_ = ("a comment is a line that begins with `#`",)
-        return Habit("`/*` begins no comment here", "expected `#`", token.start, token.end + 1, help_)
-    if (
-        token.text in ("+", "-")
-        and before
-        and before[-1].kind == "NAME"
-        and text[token.end :][:1] == token.text
-    ):
-        help_ = ("a name keeps its value; make a new one with `let`",)
-        message = f"`{token.text * 2}` changes nothing here"
-        return Habit(message, "no such operator", token.start, token.end + 1, help_)
     joined = bool(before) and before[-1].end == token.start
-    if joined:
-        found = _pair(before[-1], token, text)
-        if found is not None:
-            return found
-    if token.text in _SIGNS and text.startswith(token.text, token.end):
-        return instead(token.text * 2, _SIGNS[token.text], token.start, f"write `{_SIGNS[token.text]}`")
-    if token.text in _SIGNS:
-        return instead(token.text, _SIGNS[token.text], token.start, f"write `{_SIGNS[token.text]}`")
+    return (
+        _comment(before, token, text)
+        or _semicolon(before, token, text)
+        or _changed(before, token, text)
+        or (_pair(before[-1], token) if joined else None)
+        or _and_or(token, text)
+        or _list_mark(before, token, text)
+        or _block(before, token, text)
+        or (_typed(token) or _stray(token, text) if token.kind == STRAY else None)
+    )
+
+
+def _and_or(token: Token, text: str) -> Habit | None:
+    """`&`, `&&`, `|`, `||`, `=>`, `=<`."""
     if token.text == "=" and text[token.end : token.end + 1] in (">", "<"):
         sign = text[token.end]
         return instead(f"={sign}", f"{sign}=", token.start, f"write `{sign}=`")
-    return _list_mark(before, token, text) or _block(before, token, text) or _stray(token, text)
+    if token.text not in _SIGNS:
+        return None
+    right = _SIGNS[token.text]
+    doubled = len(token.text) == 1 and text.startswith(token.text, token.end)
+    return instead(token.text * (1 + doubled), right, token.start, f"write `{right}`")
+
+
+def _comment(before: Sequence[Token], token: Token, text: str) -> Habit | None:
+    """`// rest` and `/* rest */`."""
+    if token.text == "/" and text.startswith("*", token.end):
+        help_ = ("a comment is a line that begins with `#`",)
+        return Habit("`/*` begins no comment here", "expected `#`", token.start, token.end + 1, help_)
+    beside = (text[token.start - 1 : token.start], text[token.end : token.end + 1])
+    if token.text == "//" or (token.text == "/" and "/" in beside):
+        return _slashes(before, token, text)
+    return None
+
+
+def _changed(before: Sequence[Token], token: Token, text: str) -> Habit | None:
+    """`x++`."""
+    named = bool(before) and before[-1].kind == "NAME"
+    if not named or token.text not in ("+", "-") or not text.startswith(token.text, token.end):
+        return None
+    help_ = ("a name keeps its value; make a new one with `let`",)
+    message = f"`{token.text * 2}` changes nothing here"
+    return Habit(message, "no such operator", token.start, token.end + 1, help_)
 
 
 def _slashes(before: Sequence[Token], token: Token, text: str) -> Habit:
@@ -85,8 +102,10 @@ def _slashes(before: Sequence[Token], token: Token, text: str) -> Habit:
     return replace(instead("//", "#", start, "write `#`", certain=certain), through=end)
 
 
-def _semicolon(before: Sequence[Token], token: Token, text: str) -> Habit:
+def _semicolon(before: Sequence[Token], token: Token, text: str) -> Habit | None:
     """Left out, but a number stays apart from the next word: `5; m()` is no quantity."""
+    if token.text != ";":
+        return None
     rest = text[token.end : line_end(text, token.end)].strip()
     mend = ""
     if before and before[-1].kind == "NUMBER" and rest:
@@ -96,30 +115,17 @@ def _semicolon(before: Sequence[Token], token: Token, text: str) -> Habit:
     return Habit("`;` has no place in a protocol", "not needed", token.start, token.end, help_, mend)
 
 
-def _pair(previous: Token, token: Token, text: str) -> Habit | None:
+def _pair(previous: Token, token: Token) -> Habit | None:
     pair = (previous.text, token.text)
-    if pair == ("*", "*"):
-        return Habit("there is no power `**`", "no such operator", previous.start, token.end)
-    if pair in (("-", ">"), ("=", ">")) and previous.text == "-":
-        help_ = ("what goes where is said by named arguments: `pour(source=a, target=b)`",)
-        return Habit("`->` means nothing here", "no such sign", previous.start, token.end, help_)
-    if pair == ("..", "."):
-        return instead("...", "..", previous.start, "write `..`; both ends are included")
-    if pair == ("..", "<"):
-        return Habit(
-            "a range always holds both of its ends",
-            "expected the last value",
-            token.start,
-            token.end,
-            ("write `0 .. 7` for eight values",),
-        )
-    if pair in _PAIRS:
-        return instead("".join(pair), _PAIRS[pair][0], previous.start, _PAIRS[pair][1])
+    start, end = previous.start, token.end
+    if pair in _INSTEAD:
+        return instead("".join(pair), *_INSTEAD[pair][:1], start, _INSTEAD[pair][1])
+    if pair in _NOTHING:
+        message, help_ = _NOTHING[pair]
+        return Habit(message, "no such sign", start, end, (help_,))
     if token.text[:1] == '"' and previous.text == '""':
-        help_ = ("text for readers is a comment: `##` before what it explains, or `note`",)
-        return Habit(
-            "a text stands in one pair of quotes", "three quotes", previous.start, token.start + 1, help_
-        )
+        help_ = "text for readers is a comment: `##` before what it explains, or `note`"
+        return Habit("a text stands in one pair of quotes", "three quotes", start, token.start + 1, (help_,))
     return None
 
 
@@ -149,61 +155,44 @@ _HEADERS = frozenset({"FOR", "IF", "PROTOCOL", "PROCEDURE", "KEEP", "REPEAT", "E
 
 def _block(before: Sequence[Token], token: Token, text: str) -> Habit | None:
     """`for x in xs:`, and a value in braces."""
-    if not before:
-        return None
-    if token.text == ":" and not text[token.end : line_end(text, token.end)].split("#")[0].strip():
-        if any(other.kind in _HEADERS for other in before[-8:]):
-            help_ = ("a block stands in braces: `{` here, and `}` on a line behind the block",)
-            return Habit(
-                "a block begins with `{`, not with `:`",
-                "expected `{`",
-                token.start,
-                token.end,
-                help_,
-                "{",
-                False,
-            )
-    if token.text == "{" and before[-1].text in ("=", "(", ",", "[", "in", "+"):
-        help_ = (
-            'write a list `[...]`, one named argument for each key, or a table: `import table "x.csv" as x`',
-        )
+    rest = text[token.end : line_end(text, token.end)].partition("#")[0].strip()
+    if token.text == ":" and not rest and any(other.kind in _HEADERS for other in before[-8:]):
+        message = "a block begins with `{`, not with `:`"
+        help_ = ("a block stands in braces: `{` here, and `}` on a line behind the block",)
+        return Habit(message, "expected `{`", token.start, token.end, help_, "{", certain=False)
+    if token.text == "{" and before and before[-1].text in ("=", "(", ",", "[", "in", "+"):
+        help_ = ("write a list `[...]`, an argument for each key, or `import table` from a CSV file",)
         return Habit("there are no dictionaries", "expected a value", token.start, token.end, help_)
     return None
 
 
-def _stray(token: Token, text: str) -> Habit | None:
-    if token.kind != STRAY:
-        return None
+def _typed(token: Token) -> Habit | None:
+    """What a word processor, or a book, has for a sign of the language."""
     first = token.text[0]
-    if first == '"':
-        help_ = ("a text stays on one line",)
-        label = 'expected `"` before the end of the line'
-        mend = _closed(token.text)
-        return Habit("a text is not closed", label, token.start, token.end, help_, mend, certain=False)
-    if first in _QUOTES:
-        return _quotes(token, text)
     if token.text in _TYPED:
         right = _TYPED[token.text]
         return instead(token.text, right, token.start, f"write `{right.strip()}`")
-    if token.text in ("&&", "||"):
-        right = _SIGNS[token.text[0]]
-        return instead(token.text, right, token.start, f"write `{right}`")
     if first in _DASHES:
         return instead(
             token.text, "..", token.start, "write a range as `4 .. 8`, a minus as `-`", certain=False
         )
     if first in _SPACES:
-        shown = f"U+{ord(first):04X}"
+        message = f"a space of another kind, U+{ord(first):04X}, stands here"
         help_ = ("it comes from a text processor; write an ordinary space",)
-        return Habit(
-            f"a space of another kind, {shown}, stands here",
-            "not a space",
-            token.start,
-            token.end,
-            help_,
-            " ",
-        )
-    return _unknown(token)
+        return Habit(message, "not a space", token.start, token.end, help_, " ")
+    return None
+
+
+def _stray(token: Token, text: str) -> Habit:
+    first = token.text[0]
+    if first in _QUOTES:
+        return _quotes(token, text)
+    if first != '"':
+        return _unknown(token)
+    help_ = ("a text stays on one line",)
+    label = 'expected `"` before the end of the line'
+    mend = _closed(token.text)
+    return Habit("a text is not closed", label, token.start, token.end, help_, mend, certain=False)
 
 
 def _closed(written: str) -> str:

@@ -70,9 +70,9 @@ def _spaced(before: Sequence[Token], token: Token, text: str) -> Habit | None:
 def _numbers(before: Sequence[Token], token: Token, text: str) -> Iterator[tuple[Token, Token]]:
     """A number and the word behind it on its line: the wrong token, or the one before it."""
     for number, word in ((before[-1:], token), (before[-2:-1], before[-1] if before else token)):
-        if number and number[0].kind in ("NUMBER", "QUANTITY"):
-            if "\n" not in text[number[0].end : word.start]:
-                yield number[0], word
+        is_number = bool(number) and number[0].kind in ("NUMBER", "QUANTITY")
+        if is_number and "\n" not in text[number[0].end : word.start]:
+            yield number[0], word
 
 
 def _joined(token: Token) -> Habit | None:

@@ -47,9 +47,54 @@ _ADVICE = {
 }
 _BRACE = re.compile(r"[ \t]*(?=\{)")
 _KEYWORDS = frozenset(
-    "xei import table as protocol procedure param profile object given contains of at in for if else repeat "
-    "times until do keep pause parallel unordered start await stop leave measure confirm let require unmapped "
-    "because note within after by wait step and or not true false".split()
+    [
+        "xei",
+        "import",
+        "table",
+        "as",
+        "protocol",
+        "procedure",
+        "param",
+        "profile",
+        "object",
+        "given",
+        "contains",
+        "of",
+        "at",
+        "in",
+        "for",
+        "if",
+        "else",
+        "repeat",
+        "times",
+        "until",
+        "do",
+        "keep",
+        "pause",
+        "parallel",
+        "unordered",
+        "start",
+        "await",
+        "stop",
+        "leave",
+        "measure",
+        "confirm",
+        "let",
+        "require",
+        "unmapped",
+        "because",
+        "note",
+        "within",
+        "after",
+        "by",
+        "wait",
+        "step",
+        "and",
+        "or",
+        "not",
+        "true",
+        "false",
+    ]
 )
 
 
@@ -82,46 +127,68 @@ def find_pair_habit(before: Sequence[Token], token: Token, text: str) -> Habit |
     """The habit that shows in a word and what stands beside it."""
     if not before:
         return None
+    return (
+        _needless(before, token, text)
+        or _repeat(before, token)
+        or _range(before, token)
+        or _import(before[-1], token)
+        or _late_label(before, token)
+    )
+
+
+def _needless(before: Sequence[Token], token: Token, text: str) -> Habit | None:
+    """`wait for 10 min`, `if a then {`, `for x in xs do {`, `f"..."`."""
     previous = before[-1]
-    earlier = before[-2].text if len(before) > 1 else ""
-    if previous.text == "for" and earlier == "wait":
+    if previous.text == "for" and len(before) > 1 and before[-2].text == "wait":
         return _left_out(previous, "`wait` stands before its time alone", token.start)
     if token.text in ("then", "do") and (brace := _BRACE.match(text, token.end)):
         return _left_out(token, f"no `{token.text}` stands before a block", brace.end())
     if token.text in ("f", "r", "b") and text.startswith('"', token.end):
+        message = f"`{token.text}` before a text means nothing"
         help_ = ("a text stands as it is written; leave the letter out",)
-        return Habit(
-            f"`{token.text}` before a text means nothing", "not needed", token.start, token.end, help_
-        )
-    if token.text == "{" and earlier == "repeat":
-        return Habit("`repeat` lacks its `times`", "expected `times`", token.start, token.end, (), "times {")
-    if previous.text == "repeat" and token.kind == STRAY and token.text.rstrip("xX").isdigit():
-        right = f"{token.text.rstrip('xX')} times"
-        return Habit(
-            f"`{token.text}` is not a number", f"expected `{right}`", token.start, token.end, (), right
-        )
-    if (
-        token.text == "to"
-        and previous.kind in ("NUMBER", "QUANTITY")
-        and any(o.text == "in" for o in before[-4:])
-    ):
-        return instead("to", "..", token.start, "a range is written `1 .. 8`")
-    if previous.text == "import" and token.kind == "NAME":
-        right = f'"{token.text}.xei"'
-        help_ = (f"name a file by its path: `import {right}`",)
-        return Habit(
-            "an import names a file", "expected a text in quotes", token.start, token.end, help_, right, False
-        )
-    if previous.text == "start" and len(before) > 2 and earlier == ":":
-        return _late_label(before[-3], previous, token)
+        return Habit(message, "not needed", token.start, token.end, help_)
     return None
+
+
+def _repeat(before: Sequence[Token], token: Token) -> Habit | None:
+    """`repeat 3 {` and `repeat 3x {`."""
+    if token.text == "{" and len(before) > 1 and before[-2].text == "repeat":
+        return Habit("`repeat` lacks its `times`", "expected `times`", token.start, token.end, (), "times {")
+    number = token.text.rstrip("xX")
+    if before[-1].text == "repeat" and token.kind == STRAY and number.isdigit():
+        right = f"{number} times"
+        message = f"`{token.text}` is not a number"
+        return Habit(message, f"expected `{right}`", token.start, token.end, (), right)
+    return None
+
+
+def _range(before: Sequence[Token], token: Token) -> Habit | None:
+    """`for i in 1 to 8`."""
+    behind_number = before[-1].kind in ("NUMBER", "QUANTITY")
+    if token.text != "to" or not behind_number or not any(other.text == "in" for other in before[-4:]):
+        return None
+    return instead("to", "..", token.start, "a range is written `1 .. 8`")
+
+
+def _import(previous: Token, token: Token) -> Habit | None:
+    """`import caps`."""
+    if previous.text != "import" or token.kind != "NAME":
+        return None
+    right = f'"{token.text}.xei"'
+    help_ = (f"name a file by its path: `import {right}`",)
+    label = "expected a text in quotes"
+    return Habit("an import names a file", label, token.start, token.end, help_, right, certain=False)
 
 
 def _left_out(word: Token, message: str, until: int) -> Habit:
     return Habit(message, "not needed", word.start, until, (f"leave `{word.text}` out",), "")
 
 
-def _late_label(label: Token, start: Token, token: Token) -> Habit:
+def _late_label(before: Sequence[Token], token: Token) -> Habit | None:
+    """`warm: start heat()`."""
+    if before[-1].text != "start" or len(before) < 3 or before[-2].text != ":":
+        return None
+    label, start = before[-3], before[-1]
     return Habit(
         "the label of a `start` stands behind that word",
         "expected a label after `start`",

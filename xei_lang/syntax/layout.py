@@ -13,8 +13,33 @@ from xei_lang.syntax.lexer import WORD, Token
 _TAB = 8
 _OPERANDS = frozenset({WORD, "STRING", "NUMBER", "QUANTITY"})
 _BEGINNINGS = frozenset(
-    "wait start await stop leave pause keep measure confirm do parallel for repeat if let require unmapped "
-    "note profile param object given protocol procedure import".split()
+    [
+        "wait",
+        "start",
+        "await",
+        "stop",
+        "leave",
+        "pause",
+        "keep",
+        "measure",
+        "confirm",
+        "do",
+        "parallel",
+        "for",
+        "repeat",
+        "if",
+        "let",
+        "require",
+        "unmapped",
+        "note",
+        "profile",
+        "param",
+        "object",
+        "given",
+        "protocol",
+        "procedure",
+        "import",
+    ]
 )
 
 
@@ -31,7 +56,7 @@ def indent(token: Token, text: str) -> int:
 
 
 def looks_like_statement(tokens: Sequence[Token], index: int) -> bool:
-    """Whether a statement, declaration or definition probably begins here: by its word, or as a call or label."""
+    """Whether a statement, declaration or definition probably begins here: by its word, as call or label."""
     token = tokens[index]
     if token.kind != WORD and token.text not in _BEGINNINGS:
         return False

@@ -1,6 +1,7 @@
-"""Small changes that let a text go on where it fails: a token put in, left out or put in the place of another.
+"""Small changes that let a text go on where it fails: a token put in, left out, replaced or moved by one.
 
-What is tried is ranked by how far the text then follows the grammar, and after that by how likely the slip is.
+What is tried is ranked by how far the text then follows the grammar, and after that by how likely the slip
+is.
 """
 
 from __future__ import annotations

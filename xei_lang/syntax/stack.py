@@ -42,7 +42,7 @@ class Machine:
                 return stack
 
     def step(self, stack: Stack, token: Token) -> tuple[Stack, str] | None:
-        """The stack after a token, and the kind that it has there: a word is a keyword where that may stand."""
+        """The stack after a token, and the kind that it has there: a keyword where that may stand."""
         if token.kind == WORD and token.text in self.tables.words:
             keyword = self.tables.words[token.text]
             after = self.shift(stack, keyword)

@@ -1,0 +1,42 @@
+"""Bad input for as long as one likes, guided by coverage: python tests/bench/fuzz_atheris.py [libFuzzer options]
+
+Needs `pip install atheris`, which has wheels for Linux; it is in no extra, for the tests do without it. Bytes become a
+protocol that is changed in places, or a text of its own; the front end must meet both without an exception.
+Options are those of libFuzzer: -max_total_time=600 stops after ten minutes, -runs=100000 after so many texts.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import atheris  # pyright: ignore[reportMissingImports]
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
+
+with atheris.instrument_imports(include=["xei_lang"]):
+    from tests.syntax.test_fuzz import PIECES, TEXTS, front
+
+
+def text_of(data: bytes) -> str:
+    """A text from the fuzzer's bytes: free, or a right protocol with pieces put into it."""
+    given = atheris.FuzzedDataProvider(data)
+    if given.ConsumeBool():
+        return given.ConsumeUnicodeNoSurrogates(4_000)
+    text = TEXTS[given.ConsumeIntInRange(0, len(TEXTS) - 1)]
+    for _ in range(given.ConsumeIntInRange(1, 8)):
+        begin = given.ConsumeIntInRange(0, len(text))
+        end = min(len(text), begin + given.ConsumeIntInRange(0, 20))
+        put = PIECES[given.ConsumeIntInRange(0, len(PIECES) - 1)]
+        text = text[:begin] + put + text[end:]
+    return text
+
+
+def test_one(data: bytes) -> None:
+    """What libFuzzer calls."""
+    front(text_of(data))
+
+
+if __name__ == "__main__":
+    atheris.Setup(sys.argv, test_one)
+    atheris.Fuzz()
