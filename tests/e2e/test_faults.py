@@ -1,4 +1,4 @@
-"""Faults injected into a compiled protocol are found too, not only those in plans that were made for the test."""
+"""Faults injected into a compiled protocol are found too, not only those in plans made for the test."""
 
 from __future__ import annotations
 
@@ -23,7 +23,8 @@ def test_every_class_of_faults_is_found_in_a_compiled_protocol(part: int) -> Non
     missed = []
     for seed in range(part, len(MAKERS), PARTS):
         fault = inject(made.timed, made.graph, made.world, robot, seed)
-        report = verify_timed(fault.plan, fault.graph, fault.world, robot, calibration.limits, options=options)
+        given = (fault.plan, fault.graph, fault.world, robot, calibration.limits)
+        report = verify_timed(*given, options=options)
         if fault.kind not in {finding.kind for finding in report.findings}:
             missed.append((seed, fault.name, fault.kind))
     assert missed == []

@@ -26,7 +26,9 @@ def find_profile(name: str, start: Path, explicit: Path | None) -> Path | None:
 
 def only_profile(start: Path) -> Path | None:
     """The profile of the nearest folder of profiles, if it holds just one."""
-    nearest = next((found for place in search_places(start, None) if (found := _profiles(place))), list[Path]())
+    nearest = next(
+        (found for place in search_places(start, None) if (found := _profiles(place))), list[Path]()
+    )
     return nearest[0] if len(nearest) == 1 else None
 
 
