@@ -1,8 +1,9 @@
-"""Bad input for as long as one likes, guided by coverage: python tests/bench/fuzz_atheris.py [libFuzzer options]
+"""Bad input for as long as one likes, guided by coverage: python tests/bench/fuzz_atheris.py [options]
 
-Needs `pip install atheris`, which has wheels for Linux; it is in no extra, for the tests do without it. Bytes become a
-protocol that is changed in places, or a text of its own; the front end must meet both without an exception.
-Options are those of libFuzzer: -max_total_time=600 stops after ten minutes, -runs=100000 after so many texts.
+Needs `pip install atheris`, which has wheels for Linux; it is in no extra, for the tests do without it. Bytes
+become a protocol that is changed in places, or a text of its own; the front end must meet both without an
+exception. Options are those of libFuzzer: -max_total_time=600 stops after ten minutes, -runs=100000 after so
+many texts.
 """
 
 from __future__ import annotations
