@@ -152,7 +152,7 @@ def _replacements(
                 yield Repair("replace", back, (new, *later), drop, 1 + back, token, word)
     elif token.text in _SIGNS or token.kind == STRAY:
         for sign in sorted(known):
-            if sign in _SIGNS and sign not in "{}":
+            if sign in _SIGNS and sign not in "{}" and not (token.text == "=" and sign == "."):
                 new = Token(known[sign], sign, token.start, token.end)
                 yield Repair("replace", back, (new, *later), drop, 3 + back, token, sign)
 
