@@ -98,7 +98,28 @@ def compile_request(
     watch: Callable[[PassResult], None] = lambda _result: None,
 ) -> Outcome:
     """Run the passes in order, until one has errors. `watch` sees each pass as it ends."""
-    made, said = Handoffs(), ()
+    return _run(request, Handoffs(), passes, watch)
+
+
+def check_request(request: Request) -> Diagnostics:
+    """Run the passes of `FRONT`, beyond errors of the grammar as well.
+
+    What could be read of the file is then checked, and of that is said what has nothing to do with the rest.
+    """
+    outcome = compile_request(request, FRONT)
+    module = outcome.made.module
+    if outcome.stopped_at != FRONT[0].name or module is None:
+        return outcome.diagnostics
+    from xei_lang.syntax.trust import trusted
+
+    later = _run(request, outcome.made, FRONT[1:], lambda _result: None)
+    return (*outcome.diagnostics, *trusted(later.diagnostics, request.source, module.damaged))
+
+
+def _run(
+    request: Request, made: Handoffs, passes: tuple[Pass, ...], watch: Callable[[PassResult], None]
+) -> Outcome:
+    said: Diagnostics = ()
     for step in passes:
         started = time.perf_counter()
         made_next, diagnostics = step.run(request, made)

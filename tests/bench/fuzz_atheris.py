@@ -1,4 +1,4 @@
-"""Bad input for as long as one likes, guided by coverage: python tests/bench/fuzz_atheris.py [options]
+"""Bad input, guided by coverage, for as long as one likes: python tests/bench/fuzz_atheris.py [options]
 
 Needs `pip install atheris`, which has wheels for Linux; it is in no extra, for the tests do without it. Bytes
 become a protocol that is changed in places, or a text of its own; the front end must meet both without an

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from tests.syntax import corpus
 from xei_lang.diagnostics import Source
 from xei_lang.diagnostics.render.full import render_full
-from xei_lang.pipeline import FRONT, Request, compile_request
+from xei_lang.pipeline import Request, check_request
 from xei_lang.syntax import Parser, read_source
 
 ROOT = Path(__file__).parents[2]
@@ -59,7 +59,7 @@ def front(text: str) -> str:
     """Everything that a check of this text says, as a terminal shows it."""
     source = Source("fuzz.xei", text)
     request = Request(source, profile_folder=ROOT / "profiles" / "openarm_bench", open_bindings=True)
-    said = compile_request(request, FRONT).diagnostics
+    said = check_request(request)
     shown = render_full(said, {"fuzz.xei": source})
     assert not any(char in shown for char in "\x1b\x07\x08\x7f\u202e")
     for diagnostic in said:

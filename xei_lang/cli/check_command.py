@@ -14,7 +14,7 @@ from xei_lang.cli.options import Options, compiling
 from xei_lang.cli.report import exit_code, show, with_quoted
 from xei_lang.cli.session import request_for
 from xei_lang.diagnostics import Diagnostics, Source
-from xei_lang.pipeline import FRONT, compile_request
+from xei_lang.pipeline import check_request
 from xei_lang.syntax.reading import read_source
 
 
@@ -44,7 +44,7 @@ def command(*, paths: tuple[Path, ...], form: str, options: Options) -> None:  #
         if source is not None:
             sources[source.file] = source
             request = replace(request_for(source, options, allow_unmapped=True), open_bindings=True)
-            found = (*found, *compile_request(request, FRONT).diagnostics)
+            found = (*found, *check_request(request))
         checked.append((str(file), found))
     said = tuple(diagnostic for _, found in checked for diagnostic in found)
     if form != "full":
