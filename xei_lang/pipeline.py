@@ -40,7 +40,6 @@ class Request:
     allow_unmapped: bool = False
     strict: bool = False
     seed: int = 0
-    rate_hz: float = 100.0
     progress: Progress | None = None
 
 
