@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from xei_lang.check import arithmetic
 from xei_lang.check.arguments import Signature, match_arguments
 from xei_lang.check.effects import Effect, effects_of, moves
-from xei_lang.check.evaluate import ANY_WORD, Evaluator
+from xei_lang.check.evaluate import Evaluator
 from xei_lang.check.expectation import Expectation
+from xei_lang.check.names import ANY_WORD
 from xei_lang.check.registry import Registry
 from xei_lang.check.report import Reporter, guess, listed, meant
 from xei_lang.check.scope import Scope

@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from xei_lang.check.evaluate import ANY_WORD
 from xei_lang.check.expectation import Expectation
+from xei_lang.check.names import ANY_WORD
 from xei_lang.check.plan_builder import Where
 from xei_lang.check.report import listed, meant
 from xei_lang.check.scope import Scope

@@ -18,10 +18,10 @@ from xei_lang.syntax.ast import Comprehension, Expression, Index, Name, Range
 
 
 class Evaluate(Protocol):
-    """How a list's parts are evaluated."""
+    """How the parts of an expression are evaluated."""
 
-    def __call__(self, node: Expression | Range, scope: Scope) -> Val:
-        """The value of an expression or a range."""
+    def __call__(self, node: Expression | Range, scope: Scope, words: tuple[str, ...] = ()) -> Val:
+        """The value of an expression or a range; `words` may stand in it bare."""
         ...
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from xei_lang.check.arguments import Signature, match_arguments
 from xei_lang.check.declared import declared_expectation
-from xei_lang.check.evaluate import ANY_WORD
+from xei_lang.check.names import ANY_WORD
 from xei_lang.check.paths import check_labels, step_names
 from xei_lang.check.plan_builder import PlanBuilder, Where
 from xei_lang.check.scope import Scope

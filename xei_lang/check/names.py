@@ -1,0 +1,66 @@
+"""Names to values: what is declared, the words that may stand bare, the objects and stations of the lab."""
+
+from __future__ import annotations
+
+from xei_lang.check.registry import Registry
+from xei_lang.check.report import Reporter, guess, meant, replace
+from xei_lang.check.scope import Scope
+from xei_lang.check.types import ANY_ARM
+from xei_lang.check.values import POISON, ObjectValue, Val, Word
+from xei_lang.diagnostics import did_you_mean
+from xei_lang.ir.skill_plan import StationRef
+from xei_lang.syntax.ast import Name
+
+ANY_WORD = ("*",)
+"""Given as `words`: whatever the name is, it may be a word (the argument of a skill that is not known)."""
+
+
+class Names:
+    """Finds what a name means."""
+
+    def __init__(self, registry: Registry, reporter: Reporter) -> None:
+        self._registry = registry
+        self._reporter = reporter
+
+    def value(self, node: Name, scope: Scope, words: tuple[str, ...]) -> Val:
+        """What a name is worth; `words` are those of an enumeration that may stand here bare."""
+        symbol = scope.find(node.id)
+        if symbol is not None:
+            return symbol.value
+        if node.id in words:
+            return Word(node.id)
+        thing = self._registry.objects.get(node.id)
+        if thing is not None:
+            return ObjectValue(thing.name, thing)
+        if node.id in self._registry.stations:
+            return StationRef(node.id)
+        if node.id in self._registry.arms or node.id == ANY_ARM:
+            return Word(node.id)
+        if words is not ANY_WORD:
+            self._unknown(node, scope, words)
+        return POISON
+
+    def _unknown(self, node: Name, scope: Scope, words: tuple[str, ...]) -> None:
+        known = (*scope.names(), *words, *self._registry.objects, *self._registry.stations)
+        near = did_you_mean(node.id, known)
+        lower = node.id.lower()
+        is_bool = lower in ("true", "false")
+        self._reporter.report(
+            "XEI0202",
+            f"`{node.id}` is not known here",
+            node.span,
+            f"expected {' or '.join(f'`{word}`' for word in words)}"
+            if len(words) > 1
+            else "no object, station, parameter or variable has this name",
+            help=(f"write `{lower}`",) if is_bool else meant(near) or _place_habit(node.id),
+            fix=replace(node.span, lower) if is_bool else guess(node.span, near),
+        )
+
+
+def _place_habit(name: str) -> tuple[str, ...]:
+    looks = len(name) in (2, 3) and name[0].isupper() and name[1:].isdigit()
+    return (
+        (f'a slot belongs to a rack: write `rack.slot("{name}")` with the name of your rack',)
+        if looks
+        else ()
+    )
