@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import gc
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 import click
 
+from xei_lang.cli.check_run import Checked, check_files
 from xei_lang.cli.files import count, protocol_files
 from xei_lang.cli.options import Options, compiling
 from xei_lang.cli.report import exit_code, show, with_quoted
-from xei_lang.cli.session import request_for
 from xei_lang.diagnostics import Diagnostics, Source
-from xei_lang.pipeline import check_request
-from xei_lang.syntax.reading import read_source
 
 
 @click.command("check")
@@ -37,16 +34,9 @@ def command(*, paths: tuple[Path, ...], form: str, options: Options) -> None:  #
     Example: xei check protocols/
     """
     files = protocol_files(paths)
-    checked: list[tuple[str, Diagnostics]] = []
-    sources: dict[str, Source] = {}
-    for file in files:
-        source, found = read_source(file, str(file))
-        if source is not None:
-            sources[source.file] = source
-            request = replace(request_for(source, options, allow_unmapped=True), open_bindings=True)
-            found = (*found, *check_request(request))
-        checked.append((str(file), found))
-    said = tuple(diagnostic for _, found in checked for diagnostic in found)
+    checked = check_files(files, options)
+    sources = {item.source.file: item.source for item in checked if item.source is not None}
+    said = tuple(diagnostic for item in checked for diagnostic in item.said)
     if form != "full":
         _print(form, checked, sources)
     else:
@@ -61,11 +51,12 @@ def command(*, paths: tuple[Path, ...], form: str, options: Options) -> None:  #
     sys.exit(exit_code(said))
 
 
-def _print(form: str, checked: list[tuple[str, Diagnostics]], sources: dict[str, Source]) -> None:
+def _print(form: str, checked: list[Checked], sources: dict[str, Source]) -> None:
     from xei_lang.cli.check_forms import render
 
-    said = tuple(diagnostic for _, found in checked for diagnostic in found)
-    click.echo(render(form, checked, with_quoted(said, sources)), nl=False)
+    said = tuple(diagnostic for item in checked for diagnostic in item.said)
+    pairs = [(item.file, item.said) for item in checked]
+    click.echo(render(form, pairs, with_quoted(said, sources)), nl=False)
 
 
 def _summary(said: Diagnostics, files: int) -> str:
