@@ -18,6 +18,7 @@ def test_the_skill_bank_is_the_one_that_protocols_are_written_for():
         "open_gripper": ["arm", "width"],
         "close_gripper": ["arm"],
         "set_do": ["output", "value"],
+        "read_temperature": ["device"],
     }
     assert all(skill.exposed and skill.phrases and skill.process for skill in bench().bank.skills)
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, TypeVar, get_args
 from xei_lang.diagnostics import Diagnostic, Diagnostics, Source, Span, did_you_mean
 from xei_lang.ir.goals import GoalKind
 from xei_lang.profiles.build_objects import operation_defaults
-from xei_lang.profiles.model import ArgSpec, SkillBank, SkillRule, SkillSpec, TemplateStep
-from xei_lang.profiles.schema.development import ArgModel, DevelopmentProfile, SkillModel
+from xei_lang.profiles.model import ArgSpec, ReturnSpec, SkillBank, SkillRule, SkillSpec, TemplateStep
+from xei_lang.profiles.schema.development import ArgModel, DevelopmentProfile, ReturnModel, SkillModel
 from xei_lang.profiles.yaml_tree import Node, Path
 from xei_lang.quantity import TYPE_DIMENSIONS, Quantity, QuantityError, parse_quantity
 from xei_lang.quantity.dimension import NUMBER
@@ -55,7 +55,17 @@ class _Bank:
             parameters=operation_defaults(model.parameters, self.root, (*path, "parameters")),
             template=self.template(model, (*path, "template")),
             span=self.root.key_span(*path),
+            returns=None if model.returns is None else self.returned(model.returns, (*path, "returns")),
         )
+
+    def returned(self, model: ReturnModel, path: Path) -> ReturnSpec:
+        lower = self._bound(model.type, model.min, (*path, "min"))
+        upper = self._bound(model.type, model.max, (*path, "max"))
+        span = self.root.key_span(*path)
+        if lower is not None and upper is not None and lower.dimension == upper.dimension and lower > upper:
+            message = f"nothing lies between {lower} and {upper}"
+            self._say("XEI0610", message, span, "`min` is more than `max`", "write the smaller one as `min`")
+        return ReturnSpec(model.type, lower, upper, span)
 
     def rules(self, texts: list[str], path: Path) -> tuple[SkillRule, ...]:
         rules: list[SkillRule] = []

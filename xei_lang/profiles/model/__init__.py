@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from xei_lang.profiles.model.bank import ArgSpec, SkillBank, SkillRule, SkillSpec, TemplateStep
+from xei_lang.profiles.model.bank import ArgSpec, ReturnSpec, SkillBank, SkillRule, SkillSpec, TemplateStep
 from xei_lang.profiles.model.calibration import (
     CalibratedFrame,
     Calibration,
@@ -47,6 +47,7 @@ __all__ = [
     "PlanningLimit",
     "Prior",
     "Profile",
+    "ReturnSpec",
     "RobotDescription",
     "RobotJoint",
     "SceneOrigin",

@@ -39,6 +39,18 @@ class ArgSpec(Record):
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ReturnSpec(Record):
+    """What a skill that measures gives back: a quantity's type, `Int` or `Float`, and its bounds, ends
+    included; None where the instrument is not known to have any.
+    """
+
+    type: str
+    min: Quantity | None
+    max: Quantity | None
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class SkillRule(Record):
     """A predicate of a skill's contract, in its words and parsed."""
 
@@ -80,6 +92,7 @@ class SkillSpec(Record):
     parameters: tuple[OperationDefault, ...]
     template: tuple[TemplateStep, ...]
     span: Span
+    returns: ReturnSpec | None = None
 
     def arg(self, name: str) -> ArgSpec | None:
         """The argument of this name, or None."""

@@ -18,6 +18,26 @@ from xei_lang.profiles.schema.values import (
 )
 from xei_lang.quantity.dimension import TIME
 
+ReturnType = Literal[
+    "Volume",
+    "Length",
+    "Mass",
+    "Time",
+    "Temperature",
+    "TemperatureDifference",
+    "Angle",
+    "Speed",
+    "AngularSpeed",
+    "Force",
+    "Acceleration",
+    "Frequency",
+    "Flow",
+    "Amount",
+    "CentrifugalForce",
+    "Concentration",
+    "Int",
+    "Float",
+]
 ArgType = Literal[
     "object",
     "Place",
@@ -82,6 +102,14 @@ class ArgModel(Model):
     default: str | int | float | bool | None = None
 
 
+class ReturnModel(Model):
+    """What a skill that measures gives back; bounds where the instrument has them."""
+
+    type: ReturnType
+    min: AnyQuantity | int | float | None = None
+    max: AnyQuantity | int | float | None = None
+
+
 class SkillModel(Model):
     """A skill's contract and its template."""
 
@@ -89,6 +117,7 @@ class SkillModel(Model):
     summary: Text
     args: dict[Name, ArgModel] = Field(default={})
     exposed: bool
+    returns: ReturnModel | None = None
     requires: list[Text] = Field(default=[])
     ensures: list[Text] = Field(default=[])
     duration: Duration
