@@ -9,6 +9,7 @@ from xei_lang.profiles.build_objects import pose, vec3
 from xei_lang.profiles.model import (
     CalibratedFrame,
     Calibration,
+    Camera,
     CarryPose,
     Placeholder,
     PlanningLimit,
@@ -16,6 +17,8 @@ from xei_lang.profiles.model import (
     RobotJoint,
     SceneOrigin,
     Status,
+    Tag,
+    TagLayout,
 )
 from xei_lang.profiles.schema.calibration import CalibrationProfile, LimitModel
 from xei_lang.profiles.yaml_tree import Node
@@ -48,6 +51,8 @@ def build_calibration(
         placeholders=tuple(_placeholders(model, root)),
         robot_frames=tuple(model.robot_frames.items()),
         carry=tuple(_carry(model, root)),
+        apriltags=_tag_layout(model, root),
+        cameras=tuple(_cameras(model, root)),
     )
 
 
@@ -82,6 +87,34 @@ def _stations(model: CalibrationProfile, root: Node) -> Iterator[SceneOrigin]:
 def _carry(model: CalibrationProfile, root: Node) -> Iterator[CarryPose]:
     for arm, carry in model.carry.items():
         yield CarryPose(arm, vec3(carry.position), carry.status, carry.reason, root.key_span("carry", arm))
+
+
+def _tag_layout(model: CalibrationProfile, root: Node) -> TagLayout:
+    layout = model.apriltags
+    tags = tuple(
+        Tag(tag.id, tag.size.si, tag.frame, pose(tag.position, tag.rpy), root.span_of("apriltags", "tags", index))
+        for index, tag in enumerate(layout.tags)
+    )
+    return TagLayout(layout.family, layout.status, tags, layout.minimum_tags, layout.residual_px)
+
+
+def _cameras(model: CalibrationProfile, root: Node) -> Iterator[Camera]:
+    for name, camera in model.cameras.items():
+        seen = camera.intrinsics
+        yield Camera(
+            name=name,
+            frame=camera.frame,
+            status=camera.status,
+            fx=seen.fx,
+            fy=seen.fy,
+            cx=seen.cx,
+            cy=seen.cy,
+            width=seen.width,
+            height=seen.height,
+            distortion=tuple(seen.distortion),
+            topics=tuple(camera.topics.items()),
+            span=root.key_span("cameras", name),
+        )
 
 
 def _limits(

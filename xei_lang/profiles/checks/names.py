@@ -63,6 +63,11 @@ def _unique(profile: Profile) -> Iterator[Diagnostic]:
             if name in stations:
                 yield _twice(name, station.span, stations[name], "a station")
             stations.setdefault(name, station.span)
+    tags: dict[int, Span] = {}
+    for tag in profile.calibration.apriltags.tags:
+        if tag.id in tags:
+            yield _twice(f"tag {tag.id}", tag.span, tags[tag.id], "a tag")
+        tags.setdefault(tag.id, tag.span)
 
 
 def _twice(name: str, span: Span, first: Span, what: str) -> Diagnostic:

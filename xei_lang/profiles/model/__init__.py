@@ -13,11 +13,14 @@ from xei_lang.profiles.model.bank import ArgSpec, ReturnSpec, SkillBank, SkillRu
 from xei_lang.profiles.model.calibration import (
     CalibratedFrame,
     Calibration,
+    Camera,
     CarryPose,
     Placeholder,
     PlanningLimit,
     SceneOrigin,
     Status,
+    Tag,
+    TagLayout,
 )
 from xei_lang.profiles.model.lab import (
     Element,
@@ -36,6 +39,7 @@ __all__ = [
     "ArgSpec",
     "CalibratedFrame",
     "Calibration",
+    "Camera",
     "CarryPose",
     "Element",
     "FiniteState",
@@ -57,6 +61,8 @@ __all__ = [
     "SlotGrid",
     "Spot",
     "Status",
+    "Tag",
+    "TagLayout",
     "TemplateStep",
 ]
 

@@ -73,6 +73,57 @@ class CarryPose(Record):
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Tag(Record):
+    """One AprilTag of the layout: the length of its black square's edge, and its centre's pose in `frame`.
+
+    x to the right and y up on the tag as AprilTag's published images show it, z out of the paper.
+    """
+
+    id: int
+    size_m: float
+    frame: str
+    T_frame_tag: Pose
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class TagLayout(Record):
+    """All AprilTags of the deployment, and what a detection of them must meet to be believed.
+
+    `minimum_tags` must be seen of a frame; `residual_px` bounds the root mean square distance of a corner
+    from where the joint pose puts it.
+    """
+
+    family: str = "tag36h11"
+    status: Status = "placeholder"
+    tags: tuple[Tag, ...] = ()
+    minimum_tags: int = 2
+    residual_px: float = 0.8
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Camera(Record):
+    """A pinhole camera in pixels; the centre of the top left pixel is (0, 0).
+
+    `distortion` has OpenCV's order k1, k2, p1, p2[, k3[, k4, k5, k6[, s1, s2, s3, s4[, tx, ty]]]]. `frame`
+    is the camera's body: x forward, y left, z up (REP 103); its optical frame is turned against that.
+    """
+
+    name: str
+    frame: str
+    status: Status
+    fx: float
+    fy: float
+    cx: float
+    cy: float
+    width: int
+    height: int
+    distortion: tuple[float, ...]
+    topics: tuple[tuple[str, str], ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Placeholder(Record):
     """Something that nobody has measured yet: the item of the calibration profile, and how to measure it."""
 
@@ -109,6 +160,8 @@ class Calibration(Record):
     placeholders: tuple[Placeholder, ...]
     robot_frames: tuple[tuple[str, str], ...] = ()
     carry: tuple[CarryPose, ...] = ()
+    apriltags: TagLayout = TagLayout()
+    cameras: tuple[Camera, ...] = ()
 
     def carry_pose(self, arm: Side) -> CarryPose | None:
         """Where this arm carries what it holds, or None where the profile does not say."""

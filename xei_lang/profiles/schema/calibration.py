@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from xei_lang.profiles.schema.values import (
     AngleVector,
@@ -126,15 +126,25 @@ class TagModel(Model):
 
 
 class TagsModel(Model):
-    """The AprilTags that ground the tables."""
+    """The AprilTags that ground the tables, and what must be seen of them: so many of a frame, with their
+    corners within a root mean square distance (pixels) of the joint pose.
+    """
 
-    family: Text
+    family: Literal["tag16h5", "tag25h9", "tag36h11"]
     status: Status
     tags: list[TagModel]
+    minimum_tags: Annotated[int, Field(ge=1, le=100)] = 2
+    residual_px: Annotated[float, Field(gt=0, le=10)] = 0.8
+
+
+def _distortion(values: list[float]) -> list[float]:
+    if len(values) not in (0, 4, 5, 8, 12, 14):
+        raise ValueError("a list of 0, 4, 5, 8, 12 or 14 numbers")
+    return values
 
 
 class IntrinsicsModel(Model):
-    """A pinhole camera in pixels."""
+    """A pinhole camera in pixels; distortion in OpenCV's order k1, k2, p1, p2, k3, ..."""
 
     fx: Annotated[float, Field(gt=0)]
     fy: Annotated[float, Field(gt=0)]
@@ -142,7 +152,7 @@ class IntrinsicsModel(Model):
     cy: float
     width: Annotated[int, Field(ge=1, le=20000)]
     height: Annotated[int, Field(ge=1, le=20000)]
-    distortion: list[float]
+    distortion: Annotated[list[float], AfterValidator(_distortion)]
 
 
 class CameraModel(Model):
