@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from xei_lang.diagnostics import Diagnostics, Source, has_errors
 
 if TYPE_CHECKING:
+    from xei_lang.inputs import Outside
     from xei_lang.ir.goals import MotionGoalGraph
     from xei_lang.ir.skill_plan import SkillPlan
     from xei_lang.ir.timed import TimedPlan
@@ -28,7 +29,10 @@ Progress = Callable[[str, int, int], None]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Request:
-    """Everything that a compilation is a function of."""
+    """Everything that a compilation is a function of.
+
+    `outside` is given where several requests share what they read; else each reads for itself.
+    """
 
     source: Source
     profile_folder: Path | None = None
@@ -41,6 +45,7 @@ class Request:
     strict: bool = False
     seed: int = 0
     progress: Progress | None = None
+    outside: Outside | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -131,11 +136,16 @@ def _run(
     return Outcome(made, said, None)
 
 
+def _outside(request: Request) -> Outside:
+    from xei_lang.inputs import Inputs, Outside
+
+    own = Outside(Inputs(request.cache), Path(request.source.file), request.profile_folder)
+    return request.outside or own
+
+
 def _parse(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
     """Text to `Module`."""
-    from xei_lang.syntax.parser import parse_module
-
-    module, said = parse_module(request.source)
+    module, said = _outside(request).parse(request.source)
     return replace(made, module=module), said
 
 
@@ -145,14 +155,10 @@ def _load_profile(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnosti
     A file of procedures names none; where the project has only one, it is checked with that.
     """
     from xei_lang.check import is_library, profile_name
-    from xei_lang.profiles.lookup import only_profile
-    from xei_lang.profiles.open import open_profile
 
     assert made.module is not None
-    file, folder = Path(request.source.file), request.profile_folder
-    if folder is None and is_library(made.module):
-        folder = only_profile(file)
-    profile, said = open_profile(profile_name(made.module), file, folder, request.cache)
+    named, library = profile_name(made.module), is_library(made.module)
+    profile, said = _outside(request).profile(named, library=library)
     return replace(made, profile=profile), said
 
 
@@ -161,11 +167,11 @@ def _check(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
     from xei_lang.check import CheckOptions, check_module
     from xei_lang.profiles.sources import profile_sources
     from xei_lang.syntax.loading import RecordedFiles
-    from xei_lang.syntax.project import ProjectFiles
 
     assert made.module is not None
     assert made.profile is not None
-    files = RecordedFiles(ProjectFiles(Path(request.source.file)))
+    outside = _outside(request)
+    files = RecordedFiles(outside)
     options = CheckOptions(
         bindings=dict(request.bindings),
         params=dict(request.params),
@@ -173,6 +179,7 @@ def _check(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
         max_steps=request.max_steps,
         sources=profile_sources(made.profile),
         files=files,
+        parse=outside.parse,
     )
     plan, said = check_module(made.module, request.source, made.profile, options)
     return replace(made, plan=plan, imported=files.sources), said

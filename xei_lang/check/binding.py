@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
@@ -25,9 +25,9 @@ from xei_lang.check.values import (
     Val,
     show,
 )
-from xei_lang.diagnostics import Label, Sources, Span, did_you_mean
+from xei_lang.diagnostics import Diagnostics, Label, Source, Sources, Span, did_you_mean
 from xei_lang.quantity import DimensionError, QuantityError
-from xei_lang.syntax.ast import Name, ObjectDecl, Param, Range, StringLit
+from xei_lang.syntax.ast import Module, Name, ObjectDecl, Param, Range, StringLit
 from xei_lang.syntax.loading import Files
 
 _NOTHING: Mapping[str, str] = MappingProxyType({})
@@ -41,6 +41,7 @@ class CheckOptions:
     With `open_bindings`, as in `xei check`, an object without binding is any object with its roles, and a
     ranged parameter is its whole interval. `sources` are the texts of the profile's files, so that notes can
     name a rule's line, `files` are those that imports may name; without them every import is an error.
+    `parse` reads imported texts, and is `parse_module` unless somebody keeps a parser.
     """
 
     bindings: Mapping[str, str] = field(default_factory=lambda: _NOTHING)
@@ -49,6 +50,7 @@ class CheckOptions:
     max_steps: int = 100_000
     sources: Sources = field(default_factory=dict[str, "object"])  # type: ignore[assignment]
     files: Files | None = None
+    parse: Callable[[Source], tuple[Module | None, Diagnostics]] | None = None
 
 
 class Binder:

@@ -57,7 +57,7 @@ def make_context(module: Module, source: Source, profile: Profile, options: Chec
     types = Types(registry, places, reporter)
     evaluator = Evaluator(registry, places, reporter, Budget(options.max_steps, reporter))
     usage = Usage()
-    units = load_units(module, source, options.files, reporter, usage)
+    units = load_units(module, source, options.files, reporter, usage, options.parse)
     return Context(
         units,
         options,

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
 from xei_lang.check.report import Reporter
 from xei_lang.check.scope import Scope, Usage
-from xei_lang.diagnostics import Diagnostic, Label, Source, has_errors
+from xei_lang.diagnostics import Diagnostic, Diagnostics, Label, Source, has_errors
 from xei_lang.syntax.ast import Import, ImportTable, Module, Procedure
 from xei_lang.syntax.loading import Files, LoadedFile, Unusable
+
+Parse = Callable[[Source], tuple[Module | None, Diagnostics]]
 
 MAX_FILES = 200
 """How many files one protocol may import, in all."""
@@ -36,12 +38,17 @@ class Unit:
 
 
 def load_units(
-    module: Module, source: Source, files: Files | None, reporter: Reporter, usage: Usage
+    module: Module,
+    source: Source,
+    files: Files | None,
+    reporter: Reporter,
+    usage: Usage,
+    parse: Parse | None = None,
 ) -> Mapping[str, Unit]:
     """All units by the names of their files, the protocol's own first; a failed import is reported."""
     imports = any(isinstance(item, Import) for item in module.items)
     identity = files.identity(source.file) if files is not None and imports else source.file
-    loading = _Loading(files, reporter, usage)
+    loading = _Loading(files, reporter, usage, parse)
     own = loading.unit(module, source, identity)
     return {source.file: own, **loading.units}
 
@@ -53,6 +60,7 @@ class _Loading:
     files: Files | None
     reporter: Reporter
     usage: Usage
+    parse: Parse | None
     units: dict[str, Unit] = field(default_factory=dict[str, Unit])
     done: dict[str, Unit | None] = field(default_factory=dict[str, "Unit | None"])
     chain: list[tuple[str, Source, Import | None]] = field(
@@ -87,7 +95,7 @@ class _Loading:
     def _parsed(self, loaded: LoadedFile, node: Import) -> Unit | None:
         from xei_lang.syntax.parser import parse_module
 
-        module, said = parse_module(loaded.source)
+        module, said = (self.parse or parse_module)(loaded.source)
         label = Label(node.path.span, "imported here")
         for item in said:
             self.reporter.keep(_with(item, label))

@@ -9,40 +9,18 @@ the cache means a slower load, and is no fault.
 from __future__ import annotations
 
 import contextlib
-import hashlib
 import io
 import os
 import pickle
-import sys
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-import xei_lang
 from xei_lang.diagnostics import Diagnostic, Diagnostics
-from xei_lang.profiles.files import ProfileFiles
+from xei_lang.profiles.cache_key import default_cache, key_of
 from xei_lang.profiles.model import Profile
 
-_PACKAGES = (
-    "profiles", "profiles/checks", "profiles/model", "profiles/schema", "diagnostics", "ir", "quantity",
-    "syntax", "syntax/ast",
-)  # fmt: skip
-
-
-def default_cache() -> Path:
-    """`$XDG_CACHE_HOME/xei`, else `~/.cache/xei` (XDG Base Directory Specification)."""
-    base = os.environ.get("XDG_CACHE_HOME", "")
-    return (Path(base) if os.path.isabs(base) else Path(os.path.expanduser("~/.cache"))) / "xei"
-
-
-def key_of(files: ProfileFiles) -> str:
-    """A name for what a load of these files gives: their bytes, where they are shown, and the code that reads
-    them.
-    """
-    digest = hashlib.sha256()
-    version = getattr(xei_lang, "__version__", "")
-    digest.update(repr((version, sys.version_info[:3], files.shown, files.hashes, _code())).encode())
-    return digest.hexdigest()
+__all__ = ["default_cache", "key_of", "read", "write"]
 
 
 def read(cache: Path, key: str) -> tuple[Profile, Diagnostics] | None:
@@ -75,19 +53,6 @@ def write(cache: Path, key: str, profile: Profile, diagnostics: Diagnostics) -> 
 
 def _path(cache: Path, key: str) -> Path:
     return cache / f"profile-{key[:40]}.pickle"
-
-
-def _code() -> tuple[tuple[str, int, int], ...]:
-    """Name, size and time of every module whose change could change what a load gives."""
-    root = os.path.dirname(os.path.abspath(xei_lang.__file__))
-    found: list[tuple[str, int, int]] = []
-    for package in _PACKAGES:
-        with contextlib.suppress(OSError), os.scandir(os.path.join(root, package)) as entries:
-            for entry in entries:
-                if entry.name.endswith(".py"):
-                    status = entry.stat()
-                    found.append((f"{package}/{entry.name}", status.st_size, status.st_mtime_ns))
-    return tuple(sorted(found))
 
 
 class _Unpickler(pickle.Unpickler):

@@ -6,11 +6,13 @@ This module imports neither yaml nor pydantic; those are paid for only where a f
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from xei_lang.diagnostics import Diagnostic, Diagnostics, Span
-from xei_lang.profiles import compiled
 from xei_lang.profiles.files import ProfileFiles, read_folder, shown_path
-from xei_lang.profiles.model import Profile
+
+if TYPE_CHECKING:
+    from xei_lang.profiles.model import Profile
 
 
 def load_profile(folder: Path, cache: Path | None) -> tuple[Profile | None, Diagnostics]:
@@ -22,7 +24,14 @@ def load_profile(folder: Path, cache: Path | None) -> tuple[Profile | None, Diag
     try:
         files = read_folder(folder)
     except OSError as error:
-        return None, (_unreadable(folder, error),)
+        return None, (unreadable(folder, error),)
+    return load_files(files, cache)
+
+
+def load_files(files: ProfileFiles, cache: Path | None) -> tuple[Profile | None, Diagnostics]:
+    """The profile of a folder that was read, as `load_profile` gives it."""
+    from xei_lang.profiles import compiled
+
     if cache is None:
         return _build(files)
     key = compiled.key_of(files)
@@ -41,7 +50,8 @@ def _build(files: ProfileFiles) -> tuple[Profile | None, Diagnostics]:
     return build_profile(files)
 
 
-def _unreadable(folder: Path, error: OSError) -> Diagnostic:
+def unreadable(folder: Path, error: OSError) -> Diagnostic:
+    """Why a folder that cannot be read is no profile."""
     shown = shown_path(folder)
     if isinstance(error, NotADirectoryError):
         return Diagnostic(

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from xei_lang.diagnostics import Diagnostic, Diagnostics, Span
 from xei_lang.profiles.load import load_profile
 from xei_lang.profiles.lookup import find_profile, missing_profile
-from xei_lang.profiles.model import Profile
+
+if TYPE_CHECKING:
+    from xei_lang.profiles.model import Profile
 
 
 def open_profile(
@@ -17,15 +21,25 @@ def open_profile(
 
     `explicit` is the folder that `--profile` names; then the protocol need not name one.
     """
+    return open_with(named, protocol, explicit, lambda folder: load_profile(folder, cache))
+
+
+def open_with(
+    named: tuple[str, Span] | None,
+    protocol: Path,
+    explicit: Path | None,
+    load: Callable[[Path], tuple[Profile | None, Diagnostics]],
+) -> tuple[Profile | None, Diagnostics]:
+    """As `open_profile`, for those who load a folder in a way of their own."""
     if named is None and explicit is not None:
-        return load_profile(explicit, cache)
+        return load(explicit)
     if named is None:
         return None, (_unnamed(protocol),)
     name, span = named
     folder = find_profile(name, protocol, explicit)
     if folder is None:
         return None, (missing_profile(name, protocol, explicit, span),)
-    return load_profile(folder, cache)
+    return load(folder)
 
 
 def robot_texts(profile: Profile) -> tuple[str, str]:
