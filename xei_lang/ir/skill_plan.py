@@ -15,7 +15,7 @@ from xei_lang.quantity import Quantity
 from xei_lang.record import Record
 
 StepKind = Literal[
-    "skill", "wait", "confirm", "start", "await", "pause", "stop", "leave", "measure", "require"
+    "skill", "wait", "confirm", "start", "await", "pause", "resume", "stop", "leave", "measure", "require"
 ]
 Side = Literal["left", "right"]
 ArmChoice = Literal["left", "right", "either"]
@@ -48,8 +48,33 @@ class StationRef(Record):
     name: str
 
 
-Value = Quantity | int | float | bool | str | ObjectRef | PlaceRef | StationRef | tuple["Value", ...]
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class RunValue(Record):
+    """A value that a measurement gives: `formula` says how, with the ids of measuring steps (`od[2] * 2 mL`).
+
+    Whatever is measured within its limits, the value lies in `lower .. upper`, ends included.
+    """
+
+    formula: str
+    lower: Quantity | int | float | bool
+    upper: Quantity | int | float | bool
+
+
+Value = (
+    Quantity | int | float | bool | str | ObjectRef | PlaceRef | StationRef | RunValue | tuple["Value", ...]
+)
 """What an argument can be once it is checked. An arm is its name as a string (`left`, `right`, `either`)."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Condition(Record):
+    """A condition that the plan leaves open. `text` is an expression of the language in which the measuring
+    steps `needs` are named by their ids (`od[2] < 0.1`); without `needs` it is in the words of the protocol.
+    """
+
+    text: str
+    needs: tuple[str, ...]
+    span: Span
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -85,8 +110,10 @@ class Step(Record):
     """One step of the plan.
 
     `step_id` is the step's path (`rack[2].insert#1`); `resources` are what it occupies (`left_arm`, `slide`,
-    `base`). `when` holds, in source words, the run-time condition under which the step happens; empty means
-    always. `state_before` lists what is known when it starts, sorted by variable and subject.
+    `base`). `when` holds the conditions under which the step happens, all of them; empty means always. A step
+    that does not happen counts as ended. `keep` holds the conditions that the run must find true before and
+    after the step. `needs` are the measuring steps that its conditions and arguments read. `state_before`
+    lists what is known when it starts, sorted by variable and subject.
     """
 
     step_id: str
@@ -99,10 +126,12 @@ class Step(Record):
     after: tuple[str, ...] = ()
     branch: str = ""
     turn: tuple[int, ...] = ()
-    when: tuple[str, ...] = ()
+    when: tuple[Condition, ...] = ()
     resources: tuple[str, ...] = ()
     state_before: tuple[Fact, ...] = ()
     origin: tuple[Call, ...] = ()
+    keep: tuple[Condition, ...] = ()
+    needs: tuple[str, ...] = ()
 
     def arg(self, name: str) -> Value | None:
         """The value of an argument, or None where neither the call nor the skill bank gives one."""

@@ -56,6 +56,9 @@ class _Bank:
             template=self.template(model, (*path, "template")),
             span=self.root.key_span(*path),
             returns=None if model.returns is None else self.returned(model.returns, (*path, "returns")),
+            occupies=tuple(model.occupies),
+            touchable=model.touchable,
+            occupies_span=self.root.key_span(*path, "occupies") if model.occupies else None,
         )
 
     def returned(self, model: ReturnModel, path: Path) -> ReturnSpec:

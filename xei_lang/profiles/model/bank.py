@@ -76,7 +76,11 @@ class TemplateStep(Record):
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class SkillSpec(Record):
-    """A registered skill: its contract and its template."""
+    """A registered skill: its contract and its template.
+
+    While an instrument carries it out, it holds the objects of the arguments `occupies`, and what stands in or
+    on them; `touchable` says that these may be worked with all the same.
+    """
 
     name: str
     owner: str
@@ -93,6 +97,9 @@ class SkillSpec(Record):
     template: tuple[TemplateStep, ...]
     span: Span
     returns: ReturnSpec | None = None
+    occupies: tuple[str, ...] = ()
+    touchable: bool = False
+    occupies_span: Span | None = None
 
     def arg(self, name: str) -> ArgSpec | None:
         """The argument of this name, or None."""

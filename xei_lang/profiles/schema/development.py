@@ -118,6 +118,8 @@ class SkillModel(Model):
     args: dict[Name, ArgModel] = Field(default={})
     exposed: bool
     returns: ReturnModel | None = None
+    occupies: list[Name] = Field(default=[])
+    touchable: bool = False
     requires: list[Text] = Field(default=[])
     ensures: list[Text] = Field(default=[])
     duration: Duration
