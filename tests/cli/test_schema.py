@@ -55,6 +55,7 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[Any]]:
         for name in ("plan", "goals", "timed")
     }
     lines = (folder / "trace.jsonl").read_text(encoding="utf-8").splitlines()
+    found["doctor"] = [json.loads(xei("doctor", "--format", "json", cwd=folder).out)]
     return {"check": [json.loads(checked.out)], "trace": [json.loads(line) for line in lines], **found}
 
 

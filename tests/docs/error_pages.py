@@ -8,7 +8,9 @@ A page has the code and its title from the catalogue, what it means, then `## Wh
   stands for it;
 - a line "In a file `name.csv`:" before a `csv` or `xei` block writes it under that name;
 - a line "In `usage_profile.yaml`:" before a `diff` block changes that file in a copy of the bench's profile;
-- a `yaml` or `xml` block in a fix shows lines that the bench's profile has.
+- a line "In a file `name`:" before a `text` block writes it, too;
+- a `yaml` or `xml` block in a fix shows lines that the bench's profile has;
+- where a `sh` block of the example calls `xei doctor`, the blockers that the bench does not have are meant.
 
 A page whose example nothing here can run begins with the front matter `NOT_RUN`.
 """
@@ -64,10 +66,12 @@ class Section:
         shutil.copytree(BENCH, folder / "profiles" / BENCH.name, ignore=shutil.ignore_patterns("*.py"))
         for change in self.changes:
             change.apply(folder / "profiles" / BENCH.name)
-        files = self.files or {EXAMPLE: PLAIN}
+        protocols = [name for name in self.files if name.endswith(".xei")]
+        files = self.files if protocols else {**self.files, EXAMPLE: PLAIN}
         for name, text in files.items():
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
             (folder / name).write_text(text, encoding="utf-8")
-        return folder / [name for name in files if name.endswith(".xei")][-1]
+        return folder / (protocols[-1] if protocols else EXAMPLE)
 
 
 @dataclass(frozen=True)
@@ -78,12 +82,18 @@ class Page:
     sections: dict[str, str]
     related: tuple[str, ...]
 
+    @property
+    def is_of_doctor(self) -> bool:
+        return "xei doctor" in self.sections["Example"]
+
     def section(self, name: str) -> Section:
         changes, files, lines = [], {}, []
         for block in _BLOCK.finditer(self.sections[name]):
             if block["language"] == "diff":
                 assert block["file"], f"{self.code}: a diff stands under a line that names its file"
                 changes.append(Change(block["file"], block["body"]))
+            elif block["language"] == "text" and block["file"]:
+                files[block["file"]] = block["body"]
             elif block["language"] == "csv":
                 assert block["file"], f"{self.code}: a table stands under a line that names its file"
                 files[block["file"]] = block["body"]

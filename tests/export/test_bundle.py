@@ -11,8 +11,10 @@ from pathlib import Path
 import pytest
 
 from tests.runtime.small import handoffs, profile
+from xei_lang.doctor import deployment_blockers
+from xei_lang.doctor.forms import blocker_json
 from xei_lang.export.bundle import Content, read_bundle, write_bundle
-from xei_lang.export.manifest import Blocker, Manifest, deployment_blockers
+from xei_lang.export.manifest import Manifest
 from xei_lang.export.rosbag import write_rosbag
 from xei_lang.export.scene import to_json as scene_json
 from xei_lang.ir.forms.canonical import dumps
@@ -86,17 +88,7 @@ def test_the_manifest_says_what_went_in_and_what_blocks(tmp_path: Path) -> None:
         "seed": 7,
         "tools": {"rosbags": "0.11.9"},
         "inputs": {"profiles/openarm_bench/usage_profile.yaml": "2" * 64, "protocols/small.xei": "1" * 64},
-        "blockers": [
-            {"representation": "calibration_profile", "item": item, "status": "placeholder"}
-            for item in ("table.height",)
-        ]
-        + [
-            {
-                "representation": "usage_profile",
-                "item": "objects.tube_1.assets.point_cloud",
-                "status": "missing",
-            }
-        ],
+        "blockers": [blocker_json(blocker) for blocker in deployment_blockers(profile())],
         "files": {"plan.json": "ca3d163bab055381827226140568f3bef7eaac187cebd76878e0b63e9e442356"},
     }
 
@@ -276,7 +268,7 @@ def test_what_is_no_bundle_is_not_read(tmp_path: Path, text: str | None) -> None
 
 def test_blockers_are_named_once() -> None:
     assert len(set(MANIFEST.blockers)) == len(MANIFEST.blockers)
-    assert Blocker("calibration_profile", "table.height", "placeholder") in MANIFEST.blockers
+    assert ("table.height", "strict") in [(item.item, item.blocks) for item in MANIFEST.blockers]
 
 
 def test_the_scene_holds_bodies_and_stands() -> None:

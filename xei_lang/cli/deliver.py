@@ -11,7 +11,8 @@ from xei_lang import __version__
 from xei_lang.diagnostics import Source
 from xei_lang.export import scene
 from xei_lang.export.bundle import Content
-from xei_lang.export.manifest import Manifest, deployment_blockers, tool_versions
+from xei_lang.doctor import deployment_blockers
+from xei_lang.export.manifest import Manifest, tool_versions
 from xei_lang.ir.forms import goals_json, plan_json, timed_json
 from xei_lang.ir.forms.canonical import dumps
 from xei_lang.ir.goals import MotionGoalGraph

@@ -5,7 +5,6 @@ from __future__ import annotations
 import gc
 import importlib
 import sys
-from typing import Any
 
 import click
 
@@ -18,6 +17,7 @@ COMMANDS = {
     "run": "Execute a protocol and write its trace.",
     "fmt": "Format protocols.",
     "fix": "Apply the fixes of diagnostics.",
+    "doctor": "Say what blocks a real deployment.",
     "explain": "Say more about a diagnostic's code.",
     "schema": "Print the JSON Schema of a form.",
 }
@@ -75,11 +75,7 @@ def run(argv: list[str] | None = None) -> None:
 
 
 def _report_bug(bug: Exception) -> None:
-    import traceback
+    from xei_lang.cli.bug import bug_lines
 
-    click.echo("internal error: this is a bug in xei, not in your protocol", err=True)
-    click.echo("  please report it with these lines and, if you may, the protocol that caused it", err=True)
-    frames: list[Any] = traceback.extract_tb(bug.__traceback__)[-6:]
-    for frame in frames:
-        click.echo(f"  {frame.name} ({frame.filename.rpartition('xei_lang/')[2]}:{frame.lineno})", err=True)
-    click.echo(f"  {type(bug).__name__}: {bug}", err=True)
+    for line in bug_lines(bug):
+        click.echo(line, err=True)

@@ -18,6 +18,7 @@ FORMS: Mapping[str, tuple[str, str]] = MappingProxyType(
         "plan": ("ir/forms/plan.schema.json", "`plan.json`: the steps of a protocol as skill calls"),
         "goals": ("ir/forms/goals.schema.json", "`goals.json`: what is to move, with all parameters"),
         "timed": ("ir/forms/timed.schema.json", "`timed.json`: joints over time"),
+        "doctor": ("doctor/doctor.schema.json", "what `xei doctor --format json` prints"),
         "trace": ("ir/forms/trace.schema.json", "a line of what `xei run --trace` writes"),
     }
 )

@@ -6,22 +6,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 
+from xei_lang.doctor import Blocker
+from xei_lang.doctor.forms import blocker_json
 from xei_lang.ir.forms.canonical import Json
-from xei_lang.profiles.model import Profile
 
 FORMAT = "xei-bundle"
 VERSION = 1
 
 TOOLS = ("numpy", "networkx", "ompl", "pin", "rosbags", "scipy", "toppra")
-
-
-@dataclass(frozen=True, slots=True)
-class Blocker:
-    """Something of a profile that simulation accepts and a deployment does not."""
-
-    representation: str
-    item: str
-    status: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,27 +43,9 @@ class Manifest:
             "seed": self.seed,
             "tools": dict(sorted(self.tools.items())),
             "inputs": dict(sorted(self.inputs.items())),
-            "blockers": [
-                {"representation": item.representation, "item": item.item, "status": item.status}
-                for item in self.blockers
-            ],
+            "blockers": [blocker_json(item) for item in self.blockers],
             "files": dict(sorted(files.items())),
         }
-
-
-def deployment_blockers(profile: Profile) -> tuple[Blocker, ...]:
-    """Placeholders of the calibration, and assets of the lab's own objects that are stated to be missing."""
-    found = [
-        *(("calibration_profile", found.item, "placeholder") for found in profile.calibration.placeholders),
-        *(
-            ("usage_profile", f"objects.{item.name}.assets.{asset}", "missing")
-            for item in profile.objects
-            if not item.system
-            for asset, path in item.assets
-            if path is None
-        ),
-    ]
-    return tuple(Blocker(*entry) for entry in dict.fromkeys(found))
 
 
 def tool_versions() -> dict[str, str]:

@@ -1,0 +1,59 @@
+"""`xei doctor` as a user calls it."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import jsonschema
+import pytest
+from click.testing import CliRunner
+
+from tests.cli.xei import PROFILES, xei
+from xei_lang.cli.schema_command import command as schema_command
+
+
+@pytest.fixture
+def lab(tmp_path: Path) -> Path:
+    shutil.copytree(PROFILES / "openarm_bench", tmp_path / "profiles" / "lab")
+    return tmp_path
+
+
+def test_the_only_profile_is_found_and_its_blockers_are_told_with_their_lines(lab: Path) -> None:
+    ran = xei("doctor", cwd=lab)
+    assert ran.code == 1
+    assert "(profiles/lab/calibration_profile.yaml:" in ran.out
+    assert "lab: nothing before simulation" in ran.out
+
+
+def test_json_is_of_its_schema(lab: Path) -> None:
+    ran = xei("doctor", "--profile", "lab", "--format", "json", cwd=lab)
+    schema = json.loads(CliRunner().invoke(schema_command, ["doctor"]).output)
+    jsonschema.Draft202012Validator.check_schema(schema)
+    jsonschema.Draft202012Validator(schema).validate(json.loads(ran.out))
+    assert ran.code == 1
+
+
+def test_a_profile_that_does_not_load_blocks_simulation(lab: Path) -> None:
+    file = lab / "profiles" / "lab" / "calibration_profile.yaml"
+    file.write_text(
+        file.read_text(encoding="utf-8").replace("payload: 1 kg", "payload: 1 m"), encoding="utf-8"
+    )
+    ran = xei("doctor", "--format", "json", cwd=lab)
+    assert ran.code == 1
+    assert {blocker["blocks"] for blocker in json.loads(ran.out)["blockers"]} == {"simulate"}
+    assert "payload" in xei("doctor", cwd=lab).err
+
+
+@pytest.mark.parametrize("named", ["labb", "../nowhere", "profiles"])
+def test_a_profile_that_is_not_there_is_told_with_those_that_are(lab: Path, named: str) -> None:
+    ran = xei("doctor", "--profile", named, cwd=lab)
+    assert ran.code == 1
+    assert "XEI0601" in ran.err
+    assert "`lab`" in ran.err
+
+
+def test_quiet_leaves_the_exit_code(lab: Path) -> None:
+    ran = xei("doctor", "--quiet", cwd=lab)
+    assert (ran.code, ran.out, ran.err) == (1, "", "")
