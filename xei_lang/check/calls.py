@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from xei_lang.check import arithmetic
+from xei_lang.check.amounts import Amounts, in_range, is_less_than_nothing, is_nothing
 from xei_lang.check.arguments import Signature, match_arguments
 from xei_lang.check.effects import Effect, effects_of, moves
 from xei_lang.check.evaluate import Evaluator
@@ -15,11 +16,11 @@ from xei_lang.check.registry import Registry
 from xei_lang.check.report import Reporter, guess, listed, meant
 from xei_lang.check.scope import Scope
 from xei_lang.check.state import State
+from xei_lang.check.transfers import Transfer, transfers_of
 from xei_lang.check.types import ANY_ARM, Types
 from xei_lang.check.units import Unit
 from xei_lang.check.values import (
     POISON,
-    Interval,
     ObjectValue,
     PlaceValue,
     Val,
@@ -30,7 +31,7 @@ from xei_lang.check.values import (
 from xei_lang.diagnostics import did_you_mean
 from xei_lang.ir.skill_plan import Argument, Value
 from xei_lang.profiles.model import ArgSpec, SkillSpec
-from xei_lang.quantity import DimensionError, Quantity, QuantityError, parse_quantity
+from xei_lang.quantity import Quantity, QuantityError, parse_quantity
 from xei_lang.syntax.ast import Arg, Call, Expression
 from xei_lang.world.places import accepts, place_text
 
@@ -41,7 +42,17 @@ class CheckedCall:
 
     skill: SkillSpec
     effects: tuple[Effect, ...]
+    transfers: tuple[Transfer, ...]
+    given: Mapping[str, Val | None]
     arguments: tuple[Argument, ...]
+
+    @property
+    def moves_nothing(self) -> bool:
+        """Whether it is a transfer of nothing at all, which need not happen."""
+        amounts = {transfer.amount for transfer in self.transfers}
+        return bool(amounts) and all(
+            name is not None and is_nothing(self.given.get(name)) for name in amounts
+        )
 
     @property
     def values(self) -> dict[str, Value]:
@@ -50,11 +61,19 @@ class CheckedCall:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class _Formal:
+    spec: ArgSpec
+    expected: Expectation
+    is_amount: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class _Prepared:
     skill: SkillSpec
     signature: Signature
-    expectations: tuple[tuple[ArgSpec, Expectation], ...]
+    formals: tuple[_Formal, ...]
     effects: tuple[Effect, ...]
+    transfers: tuple[Transfer, ...]
 
 
 class Calls:
@@ -77,6 +96,7 @@ class Calls:
         self._types = types
         self._reporter = reporter
         self._units = units
+        self._amounts = Amounts(evaluator, types, reporter)
         self._prepared: dict[str, _Prepared] = {}
 
     def check(self, call: Call, scope: Scope, state: State) -> CheckedCall | None:
@@ -91,13 +111,13 @@ class Calls:
             self._look_at_arguments(call, scope)
             return None
         values = {
-            spec.name: self._argument(given.get(spec.name), spec, expected, scope, state)
-            for spec, expected in prepared.expectations
+            formal.spec.name: self._argument(given.get(formal.spec.name), formal, scope, state)
+            for formal in prepared.formals
         }
         if not self._slots_accept(prepared, given, values):
             return None
         found = tuple(_planned(spec, value, given) for spec, value in _present(prepared, values))
-        return CheckedCall(skill, prepared.effects, found)
+        return CheckedCall(skill, prepared.effects, prepared.transfers, values, found)
 
     def _skill(self, call: Call) -> SkillSpec | None:
         name = call.callee.id
@@ -155,15 +175,18 @@ class Calls:
                 tuple(spec.name for spec in skill.args if spec.required),
                 skill.span,
             )
-            expectations = tuple((spec, expectation(spec, skill.name)) for spec in skill.args)
-            prepared = _Prepared(skill, signature, expectations, effects_of(skill))
+            transfers = transfers_of(skill)
+            amounts = {transfer.amount for transfer in transfers}
+            formals = tuple(
+                _Formal(spec, expectation(spec, skill.name), spec.name in amounts) for spec in skill.args
+            )
+            prepared = _Prepared(skill, signature, formals, effects_of(skill), transfers)
             self._prepared[skill.name] = prepared
         return prepared
 
-    def _argument(
-        self, given: Arg | None, spec: ArgSpec, expected: Expectation, scope: Scope, state: State
-    ) -> Val | None:
+    def _argument(self, given: Arg | None, formal: _Formal, scope: Scope, state: State) -> Val | None:
         """The checked value of one argument; None for one that neither the call nor the skill bank gives."""
+        spec, expected = formal.spec, formal.expected
         if given is None:
             return default_of(spec, self._registry)
         words = (
@@ -182,7 +205,12 @@ class Calls:
             and value.kind not in spec.choices
         ):
             return self._wrong_kind_of_place(value, spec, expected, given.value)
-        return self._in_range(value, spec, expected, given.value)
+        if formal.is_amount and is_nothing(value):
+            return value
+        if is_less_than_nothing(value, spec):
+            self._amounts.less_than_nothing(value, expected, given.value, scope, state)
+            return POISON
+        return in_range(value, spec, expected, given.value, self._reporter)
 
     def _wrong_kind_of_place(
         self, value: PlaceValue, spec: ArgSpec, expected: Expectation, node: Expression
@@ -193,31 +221,6 @@ class Calls:
             f"`{show(value)}` is a {value.kind}, but {expected.what} takes {wanted}",
             node.span,
             f"expected {wanted}, found a {value.kind}",
-            notes=(self._reporter.rule(spec.span),),
-        )
-        return POISON
-
-    def _in_range(self, value: Val, spec: ArgSpec, expected: Expectation, node: Expression) -> Val:
-        if (spec.min is None and spec.max is None) or not arithmetic.is_numeric(value):
-            return value
-        low, high = (value.lower, value.upper) if isinstance(value, Interval) else (value, value)
-        try:
-            below = spec.min is not None and arithmetic.compare("<", low, spec.min) is True
-            above = spec.max is not None and arithmetic.compare(">", high, spec.max) is True
-        except DimensionError:
-            return value
-        if not below and not above:
-            return value
-        bounds = (
-            f"{spec.min if spec.min is not None else '...'} .. {spec.max if spec.max is not None else '...'}"
-        )
-        may = "may be" if isinstance(value, Interval) else "is"
-        side = f"less than {spec.min}" if below else f"more than {spec.max}"
-        self._reporter.report(
-            "XEI0308",
-            f"{expected.what} {may} {show(low if below else high)}, {side}",
-            node.span,
-            f"expected {bounds}",
             notes=(self._reporter.rule(spec.span),),
         )
         return POISON
@@ -253,10 +256,10 @@ class Calls:
 
 
 def _present(prepared: _Prepared, values: Mapping[str, Val | None]) -> Iterator[tuple[ArgSpec, Val]]:
-    for spec, _ in prepared.expectations:
-        value = values[spec.name]
+    for formal in prepared.formals:
+        value = values[formal.spec.name]
         if value is not None:
-            yield spec, value
+            yield formal.spec, value
 
 
 def _planned(spec: ArgSpec, value: Val, given: Mapping[str, Arg]) -> Argument:

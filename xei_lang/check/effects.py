@@ -8,6 +8,7 @@ from fractions import Fraction
 
 from xei_lang.check.state import EITHER, NOTHING, State
 from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, Value
+from xei_lang.profiles.instruments import instrument_of
 from xei_lang.profiles.model import SkillSpec
 from xei_lang.syntax.ast import (
     Bool,
@@ -47,13 +48,15 @@ class Effect:
 
 
 def effects_of(skill: SkillSpec) -> tuple[Effect, ...]:
-    """The settings (`:=`) among what a skill ensures; changes (`+=`, `-=`) belong to state checking."""
+    """The settings (`:=`) among what a skill ensures, but for volumes: those are `transfers`."""
     found: list[Effect] = []
     for rule in skill.ensures:
         update = rule.predicate
         if isinstance(update, Update) and update.op == ":=" and isinstance(update.target, CallExpr):
             function, args = update.target.function, update.target.args
-            if isinstance(function, Name) and len(args) == 1 and isinstance(args[0].value, Name):
+            if not isinstance(function, Name) or function.id == "volume":
+                continue
+            if len(args) == 1 and isinstance(args[0].value, Name):
                 found.append(Effect(function.id, args[0].value.id, update.value))
     return tuple(found)
 
@@ -103,12 +106,12 @@ def _value(node: Expression, args: Mapping[str, Value]) -> Value | None:
 
 def resources_of(skill: SkillSpec, args: Mapping[str, Value]) -> tuple[str, ...]:
     """What a step occupies, sorted: `left_arm`, `left_gripper`, `slide`, `base`, `perception`, `io`,
-    `person`.
+    `person`, and an instrument by its name.
 
     `either_arm` and `either_gripper` stand for those of one arm that is chosen later. A template line that
     moves the robot without naming an arm occupies all of it.
     """
-    found: set[str] = set()
+    found = {instrument_of(skill, args)} - {""}
     for line in skill.template:
         part = _ARM_PARTS.get(line.kind)
         if part is None:

@@ -39,6 +39,7 @@ from xei_lang.syntax.ast import (
 
 if TYPE_CHECKING:
     from xei_lang.check.conditions import Asked
+    from xei_lang.check.nominal import Nominal
 
 
 class Evaluator:
@@ -51,6 +52,8 @@ class Evaluator:
         self._operators = Operators(reporter, self.value)
         self._members = Members(registry, places, Functions(reporter, budget), reporter, self.value)
         self._asked: Asked | None = None
+        self.nominal: Nominal | None = None
+        """Answers what is asked of the state outside of conditions, where the walk has come to."""
 
     @contextmanager
     def asking(self, asked: Asked) -> Generator[None]:
@@ -85,7 +88,7 @@ class Evaluator:
             case Attr():
                 return self._members.attribute(node, scope)
             case CallExpr():
-                return self._members.call(node, scope, self._asked)
+                return self._members.call(node, scope, self._asked or self.nominal)
             case ListLit() | TupleLit():
                 return ListValue(tuple(self.value(item, scope, words) for item in node.items))
             case Index():

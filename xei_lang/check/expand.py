@@ -5,17 +5,21 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 
-from xei_lang.check import choices, conditions, loops, overlap, procedures, unsupported
+from xei_lang.check import choices, conditions, instruments, loops, overlap, procedures, unsupported
 from xei_lang.check.context import Context
 from xei_lang.check.effects import apply_effects, resources_of
 from xei_lang.check.labels import Labels
+from xei_lang.check.nominal import Nominal, Read
 from xei_lang.check.paths import step_names
 from xei_lang.check.plan_builder import PlanBuilder, Where
 from xei_lang.check.scope import Scope
 from xei_lang.check.state import State
+from xei_lang.check.transfers import apply_transfers
 from xei_lang.diagnostics import Span
 from xei_lang.ir.skill_plan import Argument
+from xei_lang.profiles.instruments import OWNER, instrument_of, work_duration_s
 from xei_lang.syntax.ast import (
+    Await,
     Block,
     Call,
     Confirm,
@@ -24,17 +28,21 @@ from xei_lang.syntax.ast import (
     Given,
     GivenContains,
     If,
+    Leave,
     Let,
     Member,
     Note,
     ObjectDecl,
     Parallel,
     Param,
+    Pause,
     Procedure,
     ProfileDecl,
     Repeat,
     Require,
+    Start,
     Step,
+    Stop,
     Unmapped,
     Wait,
     walk,
@@ -57,6 +65,10 @@ class Expander:
         self.called: set[Procedure] = set()
         self.running: list[Procedure] = []
         self.overlapping = 0
+        self.begun = instruments.Begun()
+        self.reads: list[Read] = []
+        self.alone = False
+        context.evaluator.nominal = Nominal(self)
         self._names: dict[Span, Mapping[Span, str]] = {}
         self._resources: dict[tuple[object, ...], tuple[str, ...]] = {}
 
@@ -103,6 +115,8 @@ class Expander:
                 self._param(member, scope, where)
             case ObjectDecl():
                 self.context.binder.object(member, scope)
+            case Given() | GivenContains() if where.origin:
+                self._misplaced(member.span, "what is given is said by the protocol, not by a procedure")
             case Given():
                 self.context.givens.given(member, scope, self.state)
             case GivenContains():
@@ -123,6 +137,8 @@ class Expander:
     def _step(self, step: Step, scope: Scope, where: Where) -> None:
         before = len(self.plan.steps)
         self._action(step, scope, where)
+        if self.state.works and len(self.plan.steps) == before + 1:
+            instruments.watch(self, self.plan.steps[-1])
         if not step.clauses and step.label is None:
             return
         found = self.plan.since(before)
@@ -162,6 +178,12 @@ class Expander:
                 overlap.parallel(self, step, action, scope, where)
             case If():
                 choices.choice(self, step, action, scope, where)
+            case Start():
+                instruments.start(self, step, action, scope, where)
+            case Await() | Stop() | Leave():
+                instruments.end(self, step, action, where)
+            case Pause():
+                instruments.pause(self, step, action, scope, where)
             case _:
                 unsupported.refuse(self.context.reporter, action)
                 unsupported.look_inside(self, step, scope, where)
@@ -185,10 +207,14 @@ class Expander:
         checked = self.context.calls.check(call, scope, self.state)
         if checked is None:
             return
+        if checked.moves_nothing:
+            self.plan.skip(call.callee.span, where.path(step))
+            return
         values = checked.values
         skill = checked.skill
         key = (
             skill.name,
+            instrument_of(skill, values),
             *(str(values[spec.name]) for spec in skill.args if spec.type == "Arm" and spec.name in values),
         )
         if key not in self._resources:
@@ -201,10 +227,11 @@ class Expander:
             skill=skill.name,
             owner=skill.owner,
             args=checked.arguments,
-            duration_s=skill.duration_s,
+            duration_s=work_duration_s(skill, values) if skill.owner == OWNER else skill.duration_s,
             resources=self._resources[key],
         )
         apply_effects(checked.effects, values, self.state)
+        apply_transfers(checked.transfers, checked.given, self.state, name, call.callee.span)
 
     def _wait(self, step: Step, action: Wait, scope: Scope, where: Where) -> None:
         duration = self.context.clauses.duration(action.duration, "`wait`", scope, self.state)

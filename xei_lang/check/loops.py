@@ -12,7 +12,7 @@ from xei_lang.check.plan_builder import Where
 from xei_lang.check.scope import Scope
 from xei_lang.check.values import POISON, Val, kind, nominal, show
 from xei_lang.diagnostics import Span
-from xei_lang.syntax.ast import Block, Call, For, If, Let, Name, Repeat, Step, walk
+from xei_lang.syntax.ast import Block, Call, CallExpr, For, If, Let, Name, Repeat, Step, walk
 
 if TYPE_CHECKING:
     from xei_lang.check.expand import Expander
@@ -132,12 +132,21 @@ def _regular(expander: Expander, loop: For | Repeat) -> bool:
     nodes = list(walk(loop.body))
     names |= {node.name.id for node in nodes if isinstance(node, Let)}
     for node in nodes:
-        if isinstance(node, If) or (isinstance(node, Call) and expander.context.procedure(node.callee)):
+        if (
+            isinstance(node, If)
+            or _asks(node)
+            or (isinstance(node, Call) and expander.context.procedure(node.callee))
+        ):
             return False
         head = node.iterable if isinstance(node, For) else node.count if isinstance(node, Repeat) else None
         if head is not None and any(isinstance(part, Name) and part.id in names for part in walk(head)):
             return False
     return True
+
+
+def _asks(node: object) -> bool:
+    """Whether it asks for a volume, which may be such that there is nothing to do in some turns."""
+    return isinstance(node, CallExpr) and isinstance(node.function, Name) and node.function.id == "volume"
 
 
 def _word(expander: Expander, loop: For | Repeat, word: str) -> Span:

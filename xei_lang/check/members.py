@@ -16,6 +16,7 @@ from xei_lang.syntax.ast import Attr, CallExpr, Name
 
 if TYPE_CHECKING:
     from xei_lang.check.conditions import Asked
+    from xei_lang.check.nominal import Nominal
 
 
 class Members:
@@ -34,6 +35,8 @@ class Members:
         self._functions = functions
         self._reporter = reporter
         self._evaluate = evaluate
+        declared = (state.name for thing in registry.objects.values() for state in thing.states)
+        self._variables = frozenset((*STATE_VARIABLES, *declared))
 
     def attribute(self, node: Attr, scope: Scope) -> Val:
         """`rack.slots`, `table.column`."""
@@ -62,8 +65,8 @@ class Members:
         self._reporter.report("XEI0319", shown, node.name.span, "no such attribute", help=help, fix=fix)
         return POISON
 
-    def call(self, node: CallExpr, scope: Scope, asked: Asked | None) -> Val:
-        """`rack.slot("A1")`, `len(tubes)`; the state of a thing where a condition asks for it."""
+    def call(self, node: CallExpr, scope: Scope, states: Asked | Nominal | None) -> Val:
+        """`rack.slot("A1")`, `len(tubes)`; the state of a thing, as `states` answers it."""
         function = node.function
         if isinstance(function, Attr) and function.name.id in METHODS:
             return self._method(node, function, scope)
@@ -74,9 +77,9 @@ class Members:
             if function.id in self._functions.names:
                 args = tuple(self._evaluate(arg.value, scope) for arg in node.args)
                 return self._functions.call(function, node, args)
-            if asked is not None and function.id in STATE_VARIABLES:
+            if states is not None and function.id in self._variables:
                 subject = self._evaluate(node.args[0].value, scope) if node.args else POISON
-                return asked.value(function, node, subject)
+                return states.value(function, node, subject)
             return self._functions.unknown(function, tuple(self._registry.skills))
         self._reporter.report("XEI0319", "this cannot be called", function.span, "not a function")
         return POISON

@@ -7,10 +7,11 @@ from xei_lang.check.binding import CheckOptions
 from xei_lang.check.context import Context, make_context
 from xei_lang.check.expand import Expander
 from xei_lang.check.initial import initial_state
+from xei_lang.check.instruments import all_ended
 from xei_lang.check.paths import check_labels, step_names
 from xei_lang.check.plan_builder import PlanBuilder, Where
 from xei_lang.check.procedures import check_alone, check_declarations
-from xei_lang.check.report import Reporter
+from xei_lang.check.report import Reporter, listed
 from xei_lang.check.scope import Scope
 from xei_lang.check.units import Unit
 from xei_lang.check.values import Val
@@ -131,6 +132,7 @@ def _protocol(protocol: Protocol, expander: Expander, scope: Scope, profile: Pro
     initial = _expand(protocol, expander, scope, where)
     if plan.full and plan.overflow is None:
         _full(context, plan, protocol)
+    _say_what_is_skipped(context, plan)
     return SkillPlan(
         protocol.name.id,
         profile.name,
@@ -160,7 +162,19 @@ def _expand(protocol: Protocol, expander: Expander, scope: Scope, where: Where) 
                 help=("move it before the first step",),
             )
     expander.members(protocol.body[first:], scope, where)
+    all_ended(expander)
     return initial
+
+
+def _say_what_is_skipped(context: Context, plan: PlanBuilder) -> None:
+    for span, paths in plan.skipped.items():
+        context.reporter.report(
+            "XEI0504",
+            f"`{context.words(span)}` moves nothing here and is skipped",
+            span,
+            f"nothing to do in {listed(tuple(paths))}",
+            notes=("rule: a transfer of `0 uL` is no step of the plan",),
+        )
 
 
 def _full(context: Context, plan: PlanBuilder, protocol: Protocol) -> None:

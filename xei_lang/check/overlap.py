@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from xei_lang.check.independence import Use, Uses, uses_of
 from xei_lang.check.labels import Labels
+from xei_lang.check.nominal import Read, check_reads
 from xei_lang.check.paths import names_of_blocks
 from xei_lang.check.plan_builder import Where
 from xei_lang.check.scope import Scope
@@ -57,6 +58,7 @@ class Overlap:
         self._before = expander.plan.tails
         self._start = len(expander.plan.steps)
         self._states: list[State] = []
+        self._reads: list[list[Read]] = []
         self._tails: list[str] = []
         self._ends: list[int] = []
         self._labels: list[Labels] = []
@@ -68,13 +70,14 @@ class Overlap:
         expander, plan = self._expander, self._expander.plan
         expander.state, plan.tails = self._base.fork(), self._before
         outer, expander.labels = expander.labels, expander.labels.branch()
-        made = len(plan.steps)
+        made, asked = len(plan.steps), len(expander.reads)
         expander.overlapping += 1
         yield
         expander.overlapping -= 1
         self._labels.append(expander.labels)
         expander.labels = outer
         self._states.append(expander.state)
+        self._reads.append(expander.reads[asked:])
         self._ends.append(len(plan.steps))
         if len(plan.steps) > made:
             self._tails.extend(plan.tails)
@@ -90,6 +93,7 @@ class Overlap:
             expander.labels.join(labels)
         plan.overlaps.append((self._start, len(plan.steps)))
         self._check_uses()
+        check_reads(expander, self._reads, self._base, self._states)
         self._forget_what_others_do()
 
     def _check_uses(self) -> None:

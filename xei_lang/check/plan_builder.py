@@ -62,7 +62,8 @@ class PlanBuilder:
     """Collects a plan. `tails` are the steps that the next one follows; `full` says that the bound was
     reached.
 
-    `overflow` is the loop that was reported for it, `overlaps` are the ranges of steps that may overlap.
+    `overflow` is the loop that was reported for it, `overlaps` are the ranges of steps that may overlap,
+    `skipped` the paths of steps that have nothing to do, by where their calls stand.
     """
 
     max_steps: int
@@ -74,6 +75,7 @@ class PlanBuilder:
     full: bool = False
     overflow: Span | None = None
     overlaps: list[tuple[int, int]] = field(default_factory=list[tuple[int, int]])
+    skipped: dict[Span, list[str]] = field(default_factory=dict[Span, list[str]])
     _ids: set[str] = field(default_factory=set[str])
     _noted: _Places = field(default_factory=set[tuple[Span, tuple[Call, ...]]])
 
@@ -128,6 +130,10 @@ class PlanBuilder:
             tuple(step.step_id for step in covered if own.isdisjoint(step.after)),
             tuple(step.step_id for step in covered if step.step_id not in followed),
         )
+
+    def skip(self, at: Span, path: str) -> None:
+        """Note that a step is left out, as it has nothing to do."""
+        self.skipped.setdefault(at, []).append(path)
 
     def remark(self, node: Note | Unmapped, origin: tuple[Call, ...]) -> None:
         """Keep a note or a gap in its place: once, also where it stands in a loop."""

@@ -56,6 +56,7 @@ def check_alone(expander: Expander, procedure: Procedure) -> None:
     expander.plan = PlanBuilder(expander.plan.max_steps)
     expander.called.add(procedure)
     expander.running = [procedure]
+    expander.alone = True
     inner = expander.context.units[procedure.span.file].scope.child()
     for formal in procedure.params:
         inner.declare(formal.name, "parameter", _any(expander, formal, inner), expander.context.reporter)

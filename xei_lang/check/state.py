@@ -10,6 +10,9 @@ from __future__ import annotations
 from bisect import bisect_left, insort
 from collections.abc import Iterable
 
+from xei_lang.check.values import Poison, to_plan
+from xei_lang.check.volumes import Amount, Volumes
+from xei_lang.check.works import Works
 from xei_lang.ir.skill_plan import Fact, ObjectRef, PlaceRef, Value
 
 NOTHING = "nothing"
@@ -30,6 +33,8 @@ class State:
         self._taken_from: dict[PlaceRef, str] = {}
         self._in_either: tuple[str, ...] = ()
         self._touched: set[_Key] = set()
+        self.works = Works()
+        self.volumes = Volumes()
 
     def copy(self) -> State:
         """A state of its own, for the other branch of a choice."""
@@ -41,6 +46,8 @@ class State:
         twin._taken_from = dict(self._taken_from)
         twin._in_either = self._in_either
         twin._touched = set(self._touched)
+        twin.works = self.works
+        twin.volumes = self.volumes.copy()
         return twin
 
     def fork(self) -> State:
@@ -73,9 +80,11 @@ class State:
             for place in before.keys() - after.keys():
                 own.pop(place, None)
             own.update(item for item in after.items() if before.get(item[0]) != item[1])
+        self.works = self.works.adopt(base.works, branch.works)
         gone = set(base._in_either) - set(branch._in_either)
         new = tuple(name for name in branch._in_either if name not in base._in_either)
         self._in_either = (*(name for name in self._in_either if name not in gone), *new)
+        self.volumes.adopt(base.volumes, branch.volumes)
 
     def join(self, other: State) -> State:
         """What is known whichever of two branches was taken: the facts that both share."""
@@ -86,7 +95,9 @@ class State:
         both._occupants = dict(self._occupants.items() & other._occupants.items())
         both._taken_from = dict(self._taken_from.items() & other._taken_from.items())
         both._touched |= other._touched
+        both.works = self.works.join(other.works)
         both._in_either = tuple(name for name in self._in_either if name in other._in_either)
+        both.volumes = self.volumes.join(other.volumes)
         return both
 
     def facts(self) -> tuple[Fact, ...]:
@@ -112,6 +123,14 @@ class State:
             self._set_at(subject, value)
         else:
             self._put(variable, subject, value)
+
+    def set_volume(self, name: str, amount: Amount) -> None:
+        """Let a thing hold an amount; its fact is the nominal one."""
+        self.volumes.set(name, amount)
+        if isinstance(amount.value, Poison):
+            self._drop(("volume", name))
+        else:
+            self._put("volume", name, to_plan(amount.value))
 
     def set_all(self, facts: Iterable[tuple[str, str, Value]]) -> None:
         """Set several, in order."""
