@@ -108,7 +108,7 @@ def test_a_choice_that_is_open_is_checked_on_both_branches() -> None:
     """
     open_plan = plan_of(protocol(body), open_bindings=True)
     assert [step.step_id for step in open_plan.steps] == ["a", "a~2", "wait#1"]
-    assert [step.when for step in open_plan.steps] == [("n > 3",), ("not (n > 3)",), ()]
+    assert [[item.text for item in step.when] for step in open_plan.steps] == [["n > 3"], ["not (n > 3)"], []]
     assert open_plan.steps[2].after == ("a", "a~2")
     facts = {(fact.variable, fact.subject) for fact in open_plan.steps[2].state_before}
     assert ("holding", "left") not in facts

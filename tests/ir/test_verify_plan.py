@@ -8,7 +8,7 @@ import pytest
 
 from tests.check.checking import plan_of
 from tests.check.test_properties import RICH
-from xei_lang.ir.skill_plan import Argument, Fact, SkillPlan, Step, TimeConstraint
+from xei_lang.ir.skill_plan import Argument, Condition, Fact, SkillPlan, Step, TimeConstraint
 from xei_lang.ir.verify_plan import verify_plan
 
 PLAN = plan_of(RICH)
@@ -41,6 +41,8 @@ def test_a_sound_plan_has_no_problems() -> None:
         (with_second(args=(TWICE, TWICE)), "has the argument `object` twice"),
         (with_second(duration_s=(5.0, 1.0)), "is no interval"),
         (with_second(duration_s=(-1.0, 1.0)), "is no interval"),
+        (with_second(needs=(FIRST.step_id,)), "which is no earlier measurement"),
+        (with_second(keep=(Condition("od < 1", ("od",), SPAN),)), "which it does not need"),
         (with_second(turn=(0,)), "do not count from 1"),
         (with_second(resources=("right_arm", "left_arm")), "not sorted"),
         (with_second(state_before=SECOND.state_before[::-1]), "facts are not sorted"),

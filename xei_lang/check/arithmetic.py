@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable
+from dataclasses import replace
 from fractions import Fraction
+from math import ceil
 from typing import Any
 
+from xei_lang.check.run_time import MAX_FORMULA, formula_of, needs_of
 from xei_lang.check.values import Interval, Numeric, Val, number
 from xei_lang.quantity import Quantity
 from xei_lang.quantity.dimension import NUMBER
@@ -29,7 +32,7 @@ _ORDER: dict[str, Callable[[Any, Any], bool]] = {
 
 
 class TooLargeError(ArithmeticError):
-    """A number of so many digits that computing with it would take long."""
+    """A number of so many digits, or of so long a formula, that computing with it would take long."""
 
 
 def is_numeric(value: Val) -> bool:
@@ -51,14 +54,41 @@ def combine(op: str, left: Val, right: Val) -> Val:
         raise ZeroDivisionError
     corners = [_apply(op, a, b) for a in (lows.lower, lows.upper) for b in (highs.lower, highs.upper)]
     ordered = sorted(corners, key=lambda corner: _lifted(corner).value)
-    return Interval(ordered[0], ordered[-1], _apply(op, lows.nominal, highs.nominal))
+    nominal = _apply(op, lows.nominal, highs.nominal)
+    return _measured(
+        Interval(ordered[0], ordered[-1], nominal),
+        f"{formula_of(left)} {op} {formula_of(right)}",
+        left,
+        right,
+    )
 
 
 def negate(value: Val) -> Val:
     """`-value`, for a numeric value."""
     if isinstance(value, Interval):
-        return Interval(_negative(value.upper), _negative(value.lower), _negative(value.nominal))
+        turned = Interval(_negative(value.upper), _negative(value.lower), _negative(value.nominal))
+        return _measured(turned, f"-{formula_of(value)}", value)
     return _negative(_numeric(value))
+
+
+def extreme(name: str, left: Val, right: Val) -> Val:
+    """`min(left, right)` or `max(left, right)`, by its name, for numeric values. Raises DimensionError."""
+    op = "<" if name == "min" else ">"
+    if not isinstance(left, Interval) and not isinstance(right, Interval):
+        return right if compare(op, right, left) else left
+    first, second = _as_interval(left), _as_interval(right)
+    ends = ((first.lower, second.lower), (first.upper, second.upper), (first.nominal, second.nominal))
+    lower, upper, nominal = (b if _ordered(op, b, a) else a for a, b in ends)
+    chosen = Interval(lower, upper, nominal)
+    return _measured(chosen, f"{name}({formula_of(left)}, {formula_of(right)})", left, right)
+
+
+def rounded_up(value: Val) -> Val:
+    """`ceil(value)`, for a plain number. Raises TypeError for a quantity."""
+    if isinstance(value, Interval):
+        lower, upper, nominal = (_ceiling(part) for part in (value.lower, value.upper, value.nominal))
+        return _measured(Interval(lower, upper, nominal), f"ceil({value.formula})", value)
+    return _ceiling(_numeric(value))
 
 
 def compare(op: str, left: Val, right: Val) -> bool | None:
@@ -73,6 +103,20 @@ def compare(op: str, left: Val, right: Val) -> bool | None:
     return answers.pop() if len(answers) == 1 else None
 
 
+def _measured(made: Interval, formula: str, *sources: Val) -> Interval:
+    """The interval with its formula, if any of what it was made of is measured."""
+    needs = needs_of(*sources)
+    if len(formula) > MAX_FORMULA and needs:
+        raise TooLargeError("what is computed from measurements here is too long to be carried in a plan")
+    return replace(made, formula=formula, needs=needs) if needs else made
+
+
+def _ceiling(value: Numeric) -> int:
+    if isinstance(value, Quantity):
+        raise TypeError(f"not a plain number: {value!r}")
+    return ceil(value)
+
+
 def _apply(op: str, left: Numeric, right: Numeric) -> Numeric:
     if isinstance(left, Quantity) or isinstance(right, Quantity):
         if op in "+-":
@@ -82,7 +126,7 @@ def _apply(op: str, left: Numeric, right: Numeric) -> Numeric:
     made = number(_BINARY[op](left, right))
     exact_value = Fraction(made.value if isinstance(made, Quantity) else made)
     if max(exact_value.numerator.bit_length(), exact_value.denominator.bit_length()) > _MOST_BITS:
-        raise TooLargeError
+        raise TooLargeError("this number has too many digits")
     return made
 
 

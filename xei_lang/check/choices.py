@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from xei_lang.check.plan_builder import Where
 from xei_lang.check.scope import Scope
 from xei_lang.check.values import POISON, kind, show
+from xei_lang.ir.skill_plan import Condition
 from xei_lang.syntax.ast import Block, If, Step
 
 if TYPE_CHECKING:
@@ -35,13 +36,19 @@ def choice(expander: Expander, step: Step, node: If, scope: Scope, where: Where)
 
 
 def _both(expander: Expander, step: Step, node: If, scope: Scope, where: Where) -> None:
-    plan, condition = expander.plan, expander.context.words(node.condition.span)
-    name = where.path(step)
+    plan, words, at = expander.plan, expander.context.words(node.condition.span), node.condition.span
+    name, so = where.path(step), Condition(words, (), at)
     before, tails = expander.state.copy(), plan.tails
-    expander.named_block(step, node.body, scope, where.either_way(f"{name}.then", condition))
+    expander.named_block(step, node.body, scope, where.in_branch(f"{name}.then").if_so(so))
     after_first, first_tails = expander.state, plan.tails
     expander.state, plan.tails = before, tails
-    _otherwise(expander, step, node, scope, where.either_way(f"{name}.else", f"not ({condition})"))
+    _otherwise(
+        expander,
+        step,
+        node,
+        scope,
+        where.in_branch(f"{name}.else").if_so(Condition(f"not ({words})", (), at)),
+    )
     expander.state = after_first.join(expander.state)
     plan.tails = tuple(dict.fromkeys((*first_tails, *plan.tails)))
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import reduce
-from math import ceil, prod
+from math import prod
 
 from xei_lang.check import arithmetic
 from xei_lang.check.budget import Budget
 from xei_lang.check.rearrange import chunks, pairs, products, shuffled
 from xei_lang.check.report import Reporter, guess, meant
-from xei_lang.check.values import POISON, ListValue, Val, a, kind
+from xei_lang.check.values import POISON, Interval, ListValue, Val, a, kind
 from xei_lang.diagnostics import Span, did_you_mean
 from xei_lang.quantity import DimensionError, Quantity
 from xei_lang.syntax.ast import CallExpr, Name
@@ -119,20 +119,17 @@ class Functions:
         return self._fold(node, args, lambda left, right: arithmetic.combine("+", left, right))
 
     def _least(self, node: CallExpr, args: tuple[Val, ...]) -> Val:
-        return self._fold(
-            node, args, lambda left, right: right if arithmetic.compare("<", right, left) else left
-        )
+        return self._fold(node, args, lambda left, right: arithmetic.extreme("min", left, right))
 
     def _greatest(self, node: CallExpr, args: tuple[Val, ...]) -> Val:
-        return self._fold(
-            node, args, lambda left, right: right if arithmetic.compare(">", right, left) else left
-        )
+        return self._fold(node, args, lambda left, right: arithmetic.extreme("max", left, right))
 
     def _ceil(self, node: CallExpr, args: tuple[Val, ...]) -> Val:
         value = args[0] if len(args) == 1 else None
-        if value is None or not arithmetic.is_numeric(value) or isinstance(value, Quantity):
+        probe = value.lower if isinstance(value, Interval) else value
+        if value is None or not arithmetic.is_numeric(value) or isinstance(probe, Quantity):
             return self._wrong("`ceil` takes one plain number", node.span)
-        return ceil(value)  # type: ignore[arg-type]
+        return arithmetic.rounded_up(value)
 
     def _chunks(self, node: CallExpr, args: tuple[Val, ...]) -> Val:
         size = args[1] if len(args) == 2 else None
@@ -178,8 +175,8 @@ class Functions:
             return POISON
         try:
             return reduce(step, items)
-        except arithmetic.TooLargeError:
-            return self._wrong("this number has too many digits", node.span)
+        except arithmetic.TooLargeError as error:
+            return self._wrong(str(error), node.span)
         except DimensionError as error:
             message = f"cannot {error.operation} {a(error.left.name)} and {a(error.right.name)}"
             self._reporter.report("XEI0312", message, node.span, "these do not go together")

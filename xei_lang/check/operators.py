@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 from xei_lang.check import arithmetic
 from xei_lang.check.lists import Evaluate
 from xei_lang.check.report import Reporter
+from xei_lang.check.run_time import MAX_FORMULA, formula_of, joined, needs_of, negated
 from xei_lang.check.scope import Scope
-from xei_lang.check.values import POISON, ObjectValue, PlaceValue, Val, Word, a, kind, show
+from xei_lang.check.values import POISON, ObjectValue, PlaceValue, Undecided, Val, Word, a, kind, show
 from xei_lang.diagnostics import Label
 from xei_lang.quantity import DimensionError
 from xei_lang.syntax.ast import Binary, BoolOp, CallExpr, Compare, Expression, Unary
@@ -34,6 +35,8 @@ class Operators:
         if value is POISON:
             return POISON
         if node.op == "not":
+            if isinstance(value, Undecided):
+                return negated(value)
             return (not value) if isinstance(value, bool) else self._not_a(value, "a Bool", node.operand)
         return (
             arithmetic.negate(value)
@@ -54,7 +57,7 @@ class Operators:
 
         def compare(left: Val, right: Val) -> Val:
             answer = arithmetic.compare(node.op, left, right)
-            return POISON if answer is None else answer
+            return self._open(node.op, left, right) if answer is None else answer
 
         if node.op in ("==", "!="):
             left = self._evaluate(node.left, scope)
@@ -71,12 +74,31 @@ class Operators:
         found: list[Val] = []
         for side in (node.left, node.right):
             value = self._evaluate(side, scope)
-            if value is not POISON and not isinstance(value, bool):
+            if value is not POISON and not isinstance(value, (bool, Undecided)):
                 return self._not_a(value, "a Bool", side)
             found.append(value)
-        if decisive in (value for value in found if value is not POISON):
+        if decisive in (value for value in found if isinstance(value, bool)):
             return decisive
-        return POISON if POISON in found else not decisive
+        undecided = [value for value in found if isinstance(value, Undecided)]
+        if POISON in found or not undecided:
+            return POISON if POISON in found else not decisive
+        return self._short(joined(node.op, undecided), node)
+
+    def _open(self, op: str, left: Val, right: Val) -> Val:
+        """A comparison that is not decided here: by what is measured when it runs, if anything is."""
+        needs = needs_of(left, right)
+        return Undecided(f"{formula_of(left)} {op} {formula_of(right)}", needs) if needs else POISON
+
+    def _short(self, value: Undecided, node: Expression) -> Val:
+        if len(value.formula) <= MAX_FORMULA:
+            return value
+        self._reporter.report(
+            "XEI0312",
+            "this condition is too long to be carried in a plan",
+            node.span,
+            f"takes {len(value.formula)} characters where its names are written out, at most {MAX_FORMULA}",
+        )
+        return POISON
 
     def _state_words(self, node: Expression, scope: Scope, asked: Asked | None) -> tuple[str, ...]:
         if asked is None or not isinstance(node, CallExpr) or not node.args:
@@ -90,6 +112,8 @@ class Operators:
             return (show(left) == show(right)) == (node.op == "==")
         if kind(left) != kind(right) and not {type(left), type(right)} <= {str, Word}:
             return self._mismatch(node, left, right, f"cannot compare {kind(left)} with {kind(right)}")
+        if isinstance(left, Undecided) or isinstance(right, Undecided):
+            return self._open(node.op, left, right)
         if _is_open(left) or _is_open(right):
             return POISON
         return (show(left) == show(right)) == (node.op == "==")
@@ -107,13 +131,8 @@ class Operators:
         except DimensionError as error:
             text = f"cannot {error.operation} {a(error.left.name)} and {a(error.right.name)}"
             return self._mismatch(node, left, right, text)
-        except arithmetic.TooLargeError:
-            self._reporter.report(
-                "XEI0312",
-                "this number has too many digits",
-                node.span,
-                "no quantity in a laboratory is that large",
-            )
+        except arithmetic.TooLargeError as error:
+            self._reporter.report("XEI0312", str(error), node.span, "no laboratory needs one as large")
             return POISON
         except ZeroDivisionError:
             self._reporter.report(

@@ -7,7 +7,17 @@ from dataclasses import dataclass, field, replace
 
 from xei_lang.check.labels import Extent, Found
 from xei_lang.diagnostics import Span
-from xei_lang.ir.skill_plan import Argument, Call, Fact, SafetyNote, StepKind, TimeConstraint, UnmappedRequest
+from xei_lang.ir.skill_plan import (
+    Argument,
+    Call,
+    Condition,
+    Fact,
+    RunValue,
+    SafetyNote,
+    StepKind,
+    TimeConstraint,
+    UnmappedRequest,
+)
 from xei_lang.ir.skill_plan import Step as PlanStep
 from xei_lang.syntax.ast import Note, Require, Step, Unmapped
 
@@ -28,7 +38,7 @@ class Where:
     turn: tuple[int, ...] = ()
     origin: tuple[Call, ...] = ()
     branch: str = ""
-    when: tuple[str, ...] = ()
+    when: tuple[Condition, ...] = ()
     depth: int = 0
 
     def path(self, step: Step | Require) -> str:
@@ -52,9 +62,9 @@ class Where:
         turns = self.turn if turn is None else (*self.turn, turn)
         return replace(self, names=names, prefix=prefix, indices=(), turn=turns)
 
-    def either_way(self, branch: str, condition: str) -> Where:
-        """In a branch of a choice that is not decided yet."""
-        return replace(self.in_branch(branch), when=(*self.when, condition))
+    def if_so(self, condition: Condition) -> Where:
+        """Where something happens only under a condition that is not decided yet."""
+        return replace(self, when=(*self.when, condition))
 
 
 @dataclass(slots=True)
@@ -91,8 +101,12 @@ class PlanBuilder:
         args: tuple[Argument, ...] = (),
         duration_s: tuple[float, float] = (0.0, 0.0),
         resources: tuple[str, ...] = (),
+        needs: tuple[str, ...] = (),
     ) -> None:
-        """Add a step after the tails, unless the plan is full."""
+        """Add a step after the tails, unless the plan is full.
+
+        `needs` are measurements that it reads besides those of its conditions and arguments.
+        """
         if len(self.steps) >= self.max_steps:
             self.full = True
             return
@@ -113,6 +127,8 @@ class PlanBuilder:
                 resources,
                 state,
                 where.origin,
+                (),
+                _needs(where.when, args, needs),
             )
         )
         self.tails = (step_id,)
@@ -154,3 +170,20 @@ class PlanBuilder:
             found, number = f"{path}~{number}", number + 1
         self._ids.add(found)
         return found
+
+
+def _needs(
+    when: tuple[Condition, ...], args: tuple[Argument, ...], others: tuple[str, ...]
+) -> tuple[str, ...]:
+    """The measuring steps that a step reads, each once, in their order."""
+    if not when and not others and not any(isinstance(item.value, (RunValue, tuple)) for item in args):
+        return ()
+    found = [name for condition in when for name in condition.needs]
+    waiting = [item.value for item in reversed(args)]
+    while waiting:
+        value = waiting.pop()
+        if isinstance(value, RunValue):
+            found.extend(value.needs)
+        elif isinstance(value, tuple):
+            waiting.extend(reversed(value))
+    return tuple(dict.fromkeys((*found, *others)))

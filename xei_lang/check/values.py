@@ -1,8 +1,8 @@
 """What an expression can be worth while a protocol is checked.
 
-Everything is decided here and now, but for two kinds: an `Interval` (a ranged parameter that is still open)
-and `POISON` (something wrong that was reported already, or open without bounds), which fits everywhere and
-says nothing.
+Everything is decided here and now, but for three kinds: an `Interval` (a ranged parameter that is still open,
+or what a measurement gives), `Undecided` (a condition on that), and `POISON` (something wrong that was
+reported already, or open without bounds), which fits everywhere and says nothing.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from enum import Enum
 from fractions import Fraction
 from typing import Final, Literal
 
-from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, StationRef, Value
+from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, RunValue, StationRef, Value
 from xei_lang.profiles.model import LabObject
 from xei_lang.quantity import Quantity
 from xei_lang.quantity.dimension import NUMBER
@@ -37,11 +37,23 @@ Numeric = Quantity | int | Fraction
 class Interval:
     """A value of which only the bounds are known, ends included; `nominal` stands for it where one is
     needed.
+
+    What the measuring steps `needs` give has a `formula` in their ids, and nothing may stand for it.
     """
 
     lower: Numeric
     upper: Numeric
     nominal: Numeric
+    formula: str = ""
+    needs: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Undecided:
+    """A Bool that what is measured decides; `formula` and `needs` as an Interval has them."""
+
+    formula: str
+    needs: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,6 +120,7 @@ Val = (
     | ListValue
     | RecordValue
     | Interval
+    | Undecided
     | Poison
 )
 
@@ -142,6 +155,8 @@ def show(value: Val) -> str:  # noqa: PLR0911 one return for each kind of value
             return f"[{', '.join(shown)}{', ...' if len(value.items) > 3 else ''}]"
         case Interval():
             return f"{show(value.lower)} .. {show(value.upper)}"
+        case Undecided():
+            return value.formula
         case Poison():
             return "?"
         case Quantity():
@@ -151,7 +166,7 @@ def show(value: Val) -> str:  # noqa: PLR0911 one return for each kind of value
 def kind(value: Val) -> str:  # noqa: PLR0911, PLR0912 one return for each kind of value
     """What sort of value it is, with its article, for messages."""
     match value:
-        case bool():
+        case bool() | Undecided():
             return "a Bool"
         case int():
             return "a number"
@@ -206,9 +221,17 @@ def to_plan(value: Val) -> Value:  # noqa: PLR0911 one return for each kind of v
             return tuple(to_plan(item) for item in value.items)
         case RecordValue():
             return tuple(to_plan(cell) for cell in value.fields.values())
+        case Interval() if value.needs:
+            return RunValue(value.formula, value.needs, _bound(value.lower), _bound(value.upper))
         case Interval():
             return to_plan(value.nominal)
+        case Undecided():
+            return RunValue(value.formula, value.needs, False, True)
         case Poison():
             return ""
         case _:
             return value
+
+
+def _bound(value: Numeric) -> Quantity | int | float:
+    return float(value) if isinstance(value, Fraction) else value

@@ -50,12 +50,14 @@ class StationRef(Record):
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class RunValue(Record):
-    """A value that a measurement gives: `formula` says how, with the ids of measuring steps (`od[2] * 2 mL`).
+    """A value that measurements give: `formula` says how, with the ids of those steps, `needs`
+    (`od[2] * 2 mL`).
 
     Whatever is measured within its limits, the value lies in `lower .. upper`, ends included.
     """
 
     formula: str
+    needs: tuple[str, ...]
     lower: Quantity | int | float | bool
     upper: Quantity | int | float | bool
 

@@ -16,15 +16,19 @@ def verify_plan(plan: SkillPlan) -> tuple[str, ...]:
     """Every problem of the plan, in the order of its steps; empty for a sound one.
 
     Checked: unique, non-empty step ids; `after` names earlier steps only (so there is no cycle), each once;
-    a skill has a name and an owner, arguments are named once; durations are ordered and not negative; turns
-    count from 1; facts are sorted and said once; constraints, notes and unmapped requests name steps of the
-    plan.
+    what is needed are earlier steps that measure; a skill has a name and an owner, arguments are named once;
+    durations are ordered and not negative; turns count from 1; facts are sorted and said once; constraints,
+    notes and unmapped requests name steps of the plan.
     """
     problems: list[str] = []
     seen: set[str] = set()
+    measuring: set[str] = set()
     for step in plan.steps:
         problems.extend(f"step `{step.step_id}`: {text}" for text in _step(step, seen))
+        problems.extend(f"step `{step.step_id}`: {text}" for text in _needs(step, measuring))
         seen.add(step.step_id)
+        if step.kind == "measure":
+            measuring.add(step.step_id)
     problems.extend(f"initial state: {text}" for text in _facts(plan.initial_state))
     for constraint in plan.constraints:
         problems.extend(_constraint(constraint, seen))
@@ -54,6 +58,16 @@ def _step(step: Step, seen: set[str]) -> Iterator[str]:
     if list(step.resources) != sorted(set(step.resources)):
         yield "its resources are not sorted"
     yield from _facts(step.state_before)
+
+
+def _needs(step: Step, measuring: set[str]) -> Iterator[str]:
+    yield from (
+        f"needs `{name}`, which is no earlier measurement" for name in step.needs if name not in measuring
+    )
+    named = {name for condition in (*step.when, *step.keep) for name in condition.needs}
+    yield from (
+        f"has a condition on `{name}`, which it does not need" for name in sorted(named - set(step.needs))
+    )
 
 
 def _facts(facts: tuple[Fact, ...]) -> Iterator[str]:

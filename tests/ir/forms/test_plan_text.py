@@ -9,6 +9,7 @@ from xei_lang.ir.forms.plan_text import to_text, value_text
 from xei_lang.ir.skill_plan import (
     Argument,
     Call,
+    Condition,
     Fact,
     ObjectRef,
     PlaceRef,
@@ -50,7 +51,7 @@ def _plan() -> SkillPlan:
             args=(Argument("duration", parse_quantity("1.5 min"), "Time", "call", SPAN),),
             duration_s=(90.0, 90.0),
             after=("grasp",),
-            when=("od > 0.6",),
+            when=(Condition("od > 0.6", ("od",), SPAN),),
             state_before=HELD,
             origin=(Call("cool", SPAN),),
         ),

@@ -5,10 +5,12 @@ Values are written as somebody who reads the plan with another program wants the
 - a quantity is `{"value": 2, "unit": "mL"}`, in the unit in which it was written, never converted;
 - an object, a station, an arm, a word is its name: `"tube_1"`, `"bench_b"`, `"either"`;
 - a place is its text in a protocol, `"rack_2.slot(\\"A1\\")"`, and for a whole surface the object's name;
+- what a measurement gives is `{"measured": "od[2] * 2 mL", "lower": ..., "upper": ...}`;
 - numbers, truth values and texts are those of JSON, a list is an array.
 
 Every step is in `skill_calls`, in the order of the text; one that calls no skill has its kind as `skill`
-(`wait`, `confirm`). A bound on time without an upper end has `null` there. Lines count from 1.
+(`wait`, `confirm`). `needs` names the measuring steps that its conditions and arguments read, by ids as they
+stand there. A bound on time without an upper end has `null` there. Lines count from 1.
 """
 
 from __future__ import annotations
@@ -23,6 +25,7 @@ from xei_lang.ir.skill_plan import (
     Fact,
     ObjectRef,
     PlaceRef,
+    RunValue,
     SafetyNote,
     SkillPlan,
     StationRef,
@@ -59,6 +62,9 @@ def value_form(value: Value) -> Json:
             return value.name
         case PlaceRef():
             return f'{value.object}.{value.kind}("{value.key}")' if value.key else value.object
+        case RunValue():
+            ends = {"lower": value_form(value.lower), "upper": value_form(value.upper)}
+            return {"measured": value.formula, **ends}
         case tuple():
             return [value_form(item) for item in value]
         case _:
@@ -95,7 +101,9 @@ def _step(step: Step, sources: Sources) -> dict[str, Json]:
         "duration_s": [step.duration_s[0], _finite(step.duration_s[1])],
         "branch": step.branch,
         "turn": list(step.turn),
-        "when": list(step.when),
+        "when": [condition.text for condition in step.when],
+        "keep": [condition.text for condition in step.keep],
+        "needs": list(step.needs),
         "origin": [{"procedure": call.procedure, "line": _line(call.span, sources)} for call in step.origin],
         "state_before": facts_form(step.state_before),
     }

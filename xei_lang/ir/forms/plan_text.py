@@ -10,6 +10,7 @@ from xei_lang.ir.skill_plan import (
     Fact,
     ObjectRef,
     PlaceRef,
+    RunValue,
     SkillPlan,
     StationRef,
     Step,
@@ -49,6 +50,8 @@ def value_text(value: Value) -> str:
             return value.name
         case PlaceRef():
             return f'{value.object}.{value.kind}("{value.key}")' if value.key else value.object
+        case RunValue():
+            return f"{value.formula} ({value_text(value.lower)} .. {value_text(value.upper)})"
         case tuple():
             return f"[{', '.join(value_text(item) for item in value)}]"
         case _:
@@ -58,12 +61,13 @@ def value_text(value: Value) -> str:
 def _step(step: Step, known: tuple[Fact, ...]) -> str:
     arguments = ", ".join(_argument(item) for item in step.args)
     after = f" after {', '.join(step.after)}" if step.after else ""
-    condition = f" when {' and '.join(step.when)}" if step.when else ""
+    condition = f" when {' and '.join(item.text for item in step.when)}" if step.when else ""
     lines = [f"{step.step_id}: {step.skill or step.kind}({arguments}){after}{condition}"]
     by = f"by {step.owner}, " if step.owner else ""
     lines.append(f"  {by}{_duration(step.duration_s)}; uses {', '.join(step.resources) or 'nothing'}")
     lines.extend(f"  known: {_fact(fact)}" for fact in _without(step.state_before, known))
     lines.extend(f"  no longer known: {_fact(fact)}" for fact in _lost(known, step.state_before))
+    lines.extend(f"  keeps: {condition.text}" for condition in step.keep)
     lines.extend(f"  inside {call.procedure}" for call in step.origin)
     return "\n".join(lines)
 
