@@ -13,8 +13,10 @@ from dataclasses import dataclass, field
 
 from xei_lang.check.effects import effects_of, moves
 from xei_lang.check.registry import Registry
+from xei_lang.check.touch import held
 from xei_lang.diagnostics import Span
 from xei_lang.ir.skill_plan import Fact, ObjectRef, PlaceRef, Step
+from xei_lang.profiles.model import SkillSpec
 from xei_lang.world.places import place_text
 
 _ROBOT = ("arm", "gripper", "base", "slide", "io", "person", "perception")
@@ -58,12 +60,14 @@ class Uses:
 def uses_of(step: Step, registry: Registry) -> Iterator[Use]:
     """Everything that a step uses, in the order of its arguments."""
     skill = registry.skills.get(step.skill)
-    moved = _moved(step, registry)
+    moved, kept = _moved(step, registry), _kept(step, skill)
     for argument in step.args:
         span = argument.span if argument.source == "call" else step.span
         match argument.value:
             case ObjectRef(name=name):
                 yield Use(("object", name), f"`{name}`", "used", True, span, step)
+                if name in kept:
+                    yield Use(("under", name), f"`{name}`", "held", True, span, step)
                 if name in moved:
                     yield Use(("under", name), f"`{name}`", "moved", True, span, step)
                 for below in _below(name, step.state_before):
@@ -75,6 +79,8 @@ def uses_of(step: Step, registry: Registry) -> Iterator[Use]:
                 yield Use(("under", place.object), f"`{place.object}`", "needed", False, span, step)
             case str(side) if argument.type == "Arm" and side in registry.arms:
                 yield Use(("arm", side), f"the {side} arm", "asked for", True, span, step)
+            case str(text) if argument.type == "Step":
+                yield Use(("work", text), f"the work of `{text}`", "ended or paused", True, span, step)
             case str(text) if skill is not None and skill.owner == "io" and argument.type == "String":
                 yield Use(("output", text), f'the output "{text}"', "set", True, span, step)
             case _:
@@ -103,6 +109,13 @@ def _moved(step: Step, registry: Registry) -> frozenset[str]:
     named = {subject for subject, _ in moves(effects)}
     values = (step.arg(name) for name in sorted(named))
     return frozenset(value.name for value in values if isinstance(value, ObjectRef))
+
+
+def _kept(step: Step, skill: SkillSpec | None) -> tuple[str, ...]:
+    """What an instrument holds while it carries out the step, and nothing else may touch."""
+    if skill is None or skill.owner != "instrument" or skill.touchable:
+        return ()
+    return held(skill, {item.name: item.value for item in step.args})
 
 
 def _below(name: str, facts: Iterable[Fact]) -> Iterator[str]:

@@ -70,6 +70,11 @@ class Labels:
         self._frames.append(inner._frames[0])
         self.close_named(label)
 
+    def knows(self, node: StepRef) -> bool:
+        """Whether a reference leads to an earlier step, or is none that could."""
+        path = _path(node)
+        return path is None or any(path in frame for frame in self._frames)
+
     def find(self, node: StepRef, reporter: Reporter) -> Found:
         """What a reference to an earlier step covers; None too where there is none, which is reported."""
         path = _path(node)

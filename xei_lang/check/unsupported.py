@@ -16,14 +16,9 @@ from xei_lang.check.values import POISON
 from xei_lang.diagnostics import Span
 from xei_lang.syntax.ast import (
     Action,
-    Await,
     Keep,
-    Leave,
     Measure,
-    Pause,
-    Start,
     Step,
-    Stop,
     StopRun,
 )
 
@@ -31,12 +26,7 @@ if TYPE_CHECKING:
     from xei_lang.check.expand import Expander
 
 _WORDS: Mapping[type, tuple[str, str]] = {
-    Start: ("start", "`start`, an instrument that works on its own,"),
-    Await: ("await", "`await`, joining an instrument,"),
-    Stop: ("stop", "`stop`, ending an instrument's work,"),
     StopRun: ("stop", "`stop` with a message, ending the run,"),
-    Leave: ("leave", "`leave`, an instrument that outlives the protocol,"),
-    Pause: ("pause", "`pause`, opening an instrument at work,"),
     Keep: ("keep", "`keep`, a condition that holds throughout a block,"),
     Measure: ("measure", "`measure`, a value known only when it runs,"),
 }
@@ -51,10 +41,8 @@ def refuse(reporter: Reporter, node: Action) -> None:
 def look_inside(expander: Expander, step: Step, scope: Scope, where: Where) -> None:
     """Check what a refused construct holds, for the mistakes in it, and declare what it names."""
     action = step.action
-    if isinstance(action, Start | Measure):
-        context = expander.context
-        context.calls.check(action.call, scope, expander.state)
     if isinstance(action, Measure):
+        expander.context.calls.check(action.call, scope, expander.state)
         scope.declare(action.name, "measurement", POISON, expander.context.reporter)
     for block in blocks(action):
         expander.named_block(step, block, scope, where)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from xei_lang.diagnostics import Label, Span
+from xei_lang.diagnostics import Span
 from xei_lang.ir.skill_plan import Call, Value
 from xei_lang.profiles.model import SkillSpec
 from xei_lang.record import Record
@@ -15,9 +15,10 @@ from xei_lang.record import Record
 class Work(Record):
     """What one `start` began.
 
-    `step_id` is that of the start, which is step number `index` of the plan; `label` is what the text calls it
-    (empty without a label), `span` covers the start. `instrument` does it, and `holds` are the objects that
-    nothing else may touch meanwhile. `args` are the call's arguments by name, `origin` the calls that led there.
+    `step_id` is that of the start, which is step number `index` of the plan; `label` is what the text calls
+    it (empty without a label), `span` covers the start. `instrument` does it, and `holds` are the objects
+    that nothing else may touch meanwhile. `args` are the call's arguments by name, `origin` the calls that
+    led there.
 
     `paused` is where it was paused, `left` says that it may outlive the protocol, `torn` that it has begun or
     ended in only one branch of a choice, `told` that a mistake about it was reported.
@@ -90,4 +91,6 @@ class Works:
 def _joined(work: Work, one: Work | None, other: Work | None) -> Work:
     if one is None or other is None:
         return replace(work, torn=True)
-    return replace(one, torn=one.torn or other.torn, told=one.told or other.told, left=one.left and other.left)
+    return replace(
+        one, torn=one.torn or other.torn, told=one.told or other.told, left=one.left and other.left
+    )

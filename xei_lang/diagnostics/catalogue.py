@@ -32,6 +32,8 @@ _ENTRIES = {
     "XEI0107": Entry("a text that is too large or nested too deeply"),
     "XEI0108": Entry("a version of the language that this compiler does not know"),
     "XEI0109": Entry("more syntax errors than are shown"),
+    "XEI0110": Entry("a text that is not JSON"),
+    "XEI0111": Entry("a plan that does not follow its form"),
     "XEI0120": Entry("an import that leads out of the project folder"),
     "XEI0121": Entry("files that import each other in a circle"),
     "XEI0122": Entry("a file that cannot be imported"),
@@ -54,6 +56,7 @@ _ENTRIES = {
     "XEI0213": Entry("two protocols in one file"),
     "XEI0214": Entry("a procedure that calls itself"),
     "XEI0215": Entry("a role or type that nothing has"),
+    "XEI0216": Entry("a step of a plan that contradicts the skill bank"),
     "XEI0240": Entry("a request that no skill does stands in a protocol that is compiled"),
     "XEI0241": Entry("a placeholder stands in a profile that is used strictly"),
     # 03xx types, units and arguments

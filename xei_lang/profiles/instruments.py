@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from xei_lang.ir.skill_plan import ObjectRef, Value
+from xei_lang.ir.skill_plan import ObjectRef, RunValue, Value
 from xei_lang.profiles.model import SkillSpec, TemplateStep
 from xei_lang.quantity import Quantity
 from xei_lang.quantity.dimension import TIME
@@ -32,14 +32,14 @@ def instrument_of(skill: SkillSpec, args: Mapping[str, Value]) -> str:
 
 
 def work_duration_s(skill: SkillSpec, args: Mapping[str, Value]) -> tuple[float, float]:
-    """Shortest and longest time that the work takes: the waits of its template where they say it, else what the
-    skill declares.
+    """Shortest and longest time that the work takes: the waits of its template where they say it, else what
+    the skill declares.
     """
     waits = [_seconds(line, skill, args) for line in skill.template if line.kind == "wait"]
-    known = [seconds for seconds in waits if seconds is not None]
+    known = [bounds for bounds in waits if bounds is not None]
     if not waits or len(known) < len(waits):
         return skill.duration_s
-    return sum(known), sum(known)
+    return sum(low for low, _ in known), sum(high for _, high in known)
 
 
 def parts(template: tuple[TemplateStep, ...]) -> tuple[tuple[TemplateStep, ...], tuple[TemplateStep, ...]]:
@@ -50,8 +50,11 @@ def parts(template: tuple[TemplateStep, ...]) -> tuple[tuple[TemplateStep, ...],
     return template[: waits[0]], template[waits[-1] + 1 :]
 
 
-def _seconds(line: TemplateStep, skill: SkillSpec, args: Mapping[str, Value]) -> float | None:
+def _seconds(line: TemplateStep, skill: SkillSpec, args: Mapping[str, Value]) -> tuple[float, float] | None:
     name = line.field("for")
     parameter = next((item.value for item in skill.parameters if item.name == name), None)
     value = args.get(str(name), parameter)
-    return value.si if isinstance(value, Quantity) and value.dimension == TIME else None
+    low, high = (value.lower, value.upper) if isinstance(value, RunValue) else (value, value)
+    if not isinstance(low, Quantity) or not isinstance(high, Quantity) or low.dimension != TIME:
+        return None
+    return low.si, high.si

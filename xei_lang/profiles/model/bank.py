@@ -78,8 +78,8 @@ class TemplateStep(Record):
 class SkillSpec(Record):
     """A registered skill: its contract and its template.
 
-    While an instrument carries it out, it holds the objects of the arguments `occupies`, and what stands in or
-    on them; `touchable` says that these may be worked with all the same.
+    While an instrument carries it out, it holds the objects of the arguments `occupies`, and what stands in
+    or on them; `touchable` says that these may be worked with all the same.
     """
 
     name: str
