@@ -92,11 +92,6 @@ class Inputs:
             return digest_of(str(folder), files.errno, files.filename, folder.exists())
         return key_of(files)
 
-    def stable(self) -> bool:
-        """Whether the profiles that were loaded are still what they were before they were read."""
-        now = Inputs(None)
-        return all(now.state(folder) == self.state(folder) for folder in self._loaded)
-
     def _profile_files(self, folder: Path) -> ProfileFiles | OSError:
         if folder not in self._files:
             try:

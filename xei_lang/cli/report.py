@@ -8,8 +8,9 @@ import click
 
 from xei_lang.cli.exit_codes import INPUT_HAS_ERRORS, WRONG_USAGE
 from xei_lang.diagnostics import Diagnostics, Source, Sources
+from xei_lang.syntax.reading import read_source
 
-UNUSABLE_FILES = frozenset({"XEI0101"})
+UNUSABLE_FILES = frozenset({"XEI0101", "XEI0125"})
 """Codes for files that are missing or cannot be used: wrong usage rather than a wrong protocol."""
 
 
@@ -25,10 +26,9 @@ def with_quoted(diagnostics: Diagnostics, sources: Sources) -> dict[str, Source]
     """The sources, with the texts of other files that the diagnostics point into (profiles, tables)."""
     known = dict(sources)
     for file in sorted(_files(diagnostics) - known.keys()):
-        try:
-            known[file] = Source(file, Path(file).read_text(encoding="utf-8"))
-        except (OSError, UnicodeDecodeError):
-            continue
+        source, _ = read_source(Path(file), file)
+        if source is not None:
+            known[file] = source
     return known
 
 
