@@ -32,6 +32,11 @@ from tests.check.checking import check, protocol
         ),
         ("if leng([1]) > 0 { wait 1 s }", "if len([1]) > 0 { wait 1 s }", "unsafe"),
         ("wait len(rack_1.slts) * 1 s", "wait len(rack_1.slots) * 1 s", "unsafe"),
+        (
+            "start a: shake(object=tube_1)\n  await a\n  await a\n  wait 1 s",
+            "start a: shake(object=tube_1)\n  await a\n  wait 1 s",
+            "safe",
+        ),
         ('pick(object=table.spot("cups"))', 'pick(object=table.spot("cup"))', "unsafe"),
     ],
 )

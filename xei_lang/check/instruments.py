@@ -15,10 +15,11 @@ from xei_lang.check import work_errors
 from xei_lang.check.effects import apply_effects, effects_of, resources_of
 from xei_lang.check.plan_builder import Where
 from xei_lang.check.remaining import remaining_s
+from xei_lang.check.report import replace as replace_text
 from xei_lang.check.scope import Scope
 from xei_lang.check.touch import held, touches
 from xei_lang.check.works import Work
-from xei_lang.diagnostics import Span
+from xei_lang.diagnostics import Fix, Span
 from xei_lang.ir.skill_plan import Argument, TimeConstraint
 from xei_lang.ir.skill_plan import Step as PlanStep
 from xei_lang.profiles.instruments import OWNER, instrument_of, startable, work_duration_s
@@ -101,7 +102,7 @@ def _may_start(expander: Expander, node: Start, scope: Scope) -> bool:
 def end(expander: Expander, step: Step, node: Await | Stop | Leave, where: Where) -> None:
     """`await`, `stop`, `leave`: the step that ends a work."""
     kind = _KINDS[type(node)]
-    work = _going_on(expander, node, node.step, kind)
+    work = _going_on(expander, step, node, kind)
     if work is None:
         return
     plan, state = expander.plan, expander.state
@@ -122,7 +123,7 @@ def end(expander: Expander, step: Step, node: Await | Stop | Leave, where: Where
 
 def pause(expander: Expander, step: Step, node: Pause, scope: Scope, where: Where) -> None:
     """`pause label { }`: a step `pause`, the block, and a step `resume`, whose id ends in `.resume`."""
-    work = _going_on(expander, node, node.step, "pause")
+    work = _going_on(expander, step, node, "pause")
     if work is None:
         expander.named_block(step, node.body, scope, where)
         return
@@ -158,19 +159,17 @@ def _add(
     )
 
 
-def _going_on(
-    expander: Expander, node: Await | Stop | Leave | Pause, named: StepRef, kind: str
-) -> Work | None:
+def _going_on(expander: Expander, step: Step, node: Await | Stop | Leave | Pause, kind: str) -> Work | None:
     """The work that a step is about; None where there is none that goes on here, which is reported."""
-    reporter, begun = expander.context.reporter, expander.begun
-    work = _meant(expander, node, named, kind)
+    reporter, begun, named = expander.context.reporter, expander.begun, node.step
+    work = _meant(expander, named, kind)
     if work is None:
         begun.lost = True
         return None
     now, before = expander.state.works.get(work.step_id), begun.ends.get(work.step_id)
     if now is None or now.left:
         if not work.told:
-            work_errors.ended_before(reporter, work, named, kind, before)
+            work_errors.ended_before(reporter, work, named, kind, before, _away(expander, step))
         return None
     if now.torn:
         work_errors.torn(reporter, now, before, named.span)
@@ -183,11 +182,23 @@ def _going_on(
     return now
 
 
-def _meant(expander: Expander, node: Await | Stop | Leave | Pause, named: StepRef, kind: str) -> Work | None:
+def _away(expander: Expander, step: Step) -> Fix | None:
+    """A fix that takes away a line with a step alone on it, which happens once and nothing else speaks of."""
+    if step.label is not None or step.clauses or isinstance(step.action, Pause):
+        return None
+    if expander.loops or expander.running:
+        return None
+    text, span = expander.context.units[step.span.file].source.text, step.span
+    begin, stop = text.rfind("\n", 0, span.start), text.find("\n", span.end)
+    alone = stop > begin >= 0 and not (text[begin : span.start] + text[span.end : stop]).strip()
+    return replace_text(Span(span.file, begin, stop), "") if alone else None
+
+
+def _meant(expander: Expander, named: StepRef, kind: str) -> Work | None:
     """The work that a reference leads to; None where it leads to none, which is reported."""
     reporter, begun = expander.context.reporter, expander.begun
     if not expander.labels.knows(named):
-        module = expander.context.units[node.span.file].module
+        module = expander.context.units[named.span.file].module
         if work_errors.too_early(reporter, named, kind, module):
             return None
     found = expander.labels.find(named, reporter)

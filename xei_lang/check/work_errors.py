@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from xei_lang.check.report import Reporter, listed
 from xei_lang.check.touch import Touch
 from xei_lang.check.works import Work
-from xei_lang.diagnostics import Label, Span
+from xei_lang.diagnostics import Fix, Label, Span
 from xei_lang.ir.skill_plan import Step as PlanStep
 from xei_lang.profiles.model import SkillSpec
 from xei_lang.syntax.ast import Module, Name, Parallel, Start, Step, StepRef, walk
@@ -34,8 +34,13 @@ def never_ended(reporter: Reporter, work: Work) -> None:
     )
 
 
-def ended_before(reporter: Reporter, work: Work, named: StepRef, kind: str, before: Span | None) -> None:
-    """An end, or a pause, of what has ended already; or of what was started in the other branch."""
+def ended_before(
+    reporter: Reporter, work: Work, named: StepRef, kind: str, before: Span | None, fix: Fix | None
+) -> None:
+    """An end, or a pause, of what has ended already; or of what was started in the other branch.
+
+    `fix` takes the step away, where that changes nothing else.
+    """
     if before is None:
         torn(reporter, work, None, named.span)
         return
@@ -49,6 +54,7 @@ def ended_before(reporter: Reporter, work: Work, named: StepRef, kind: str, befo
         labels=(Label(work.span, "started here"), *ends),
         notes=(_RULE,),
         help=("leave this step out" if not same else "start it in the loop, or end it behind the loop",),
+        fix=None if same else fix,
     )
 
 
@@ -88,7 +94,7 @@ def not_started(
         f"`{words}` is {_DONE[kind]}, and was not started",
         named.span,
         "expected the label of a `start`",
-        labels=tuple(Label(span, f"`{words}` ends by itself") for span in spans)[:2],
+        labels=() if inside else tuple(Label(span, f"`{words}` ends by itself") for span in spans)[:2],
         help=(f"what was started before: {listed(help)}",) if help else ("begin it with `start`",),
     )
 
