@@ -109,7 +109,10 @@ def check_request(request: Request) -> Diagnostics:
     """Run the passes of `FRONT`, beyond errors of the grammar as well.
 
     What could be read of the file is then checked, and of that is said what has nothing to do with the rest.
+    A `.json` file is a plan that came from elsewhere.
     """
+    if request.source.file.endswith(".json"):
+        return _check_plan(request)
     outcome = compile_request(request, FRONT)
     module = outcome.made.module
     if outcome.stopped_at != FRONT[0].name or module is None:
@@ -118,6 +121,22 @@ def check_request(request: Request) -> Diagnostics:
 
     later = _run(request, outcome.made, FRONT[1:], lambda _result: None)
     return (*outcome.diagnostics, *trusted(later.diagnostics, request.source, module.damaged))
+
+
+def _check_plan(request: Request) -> Diagnostics:
+    """A plan's JSON form against the profile that it names; one that names none, against the only one."""
+    from xei_lang.check.plan_file import check_plan, read_plan_text
+    from xei_lang.profiles.sources import profile_sources
+
+    text, said = read_plan_text(request.source)
+    if text is None:
+        return said
+    named = text.profile
+    profile, found = _outside(request).profile(named, library=named is None)
+    if profile is None:
+        return (*said, *found)
+    _, checked = check_plan(text, request.source, profile, profile_sources(profile))
+    return (*said, *found, *checked)
 
 
 def _run(

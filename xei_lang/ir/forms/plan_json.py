@@ -2,7 +2,8 @@
 
 Values are written as somebody who reads the plan with another program wants them:
 
-- a quantity is `{"value": 2, "unit": "mL"}`, in the unit in which it was written, never converted;
+- a quantity is `{"value": 2, "unit": "mL"}`, in the unit in which it was written, never converted; where no
+  decimal is it (a third of 10 mL), `exact` has it as a fraction;
 - an object, a station, an arm, a word is its name: `"tube_1"`, `"bench_b"`, `"either"`;
 - a place is its text in a protocol, `"rack_2.slot(\\"A1\\")"`, and for a whole surface the object's name;
 - what a measurement gives is `{"measured": "od[2] * 2 mL", "lower": ..., "upper": ...}`;
@@ -57,7 +58,7 @@ def value_form(value: Value) -> Json:
     """One value of an argument or a fact."""
     match value:
         case Quantity():
-            return {"value": _number(value.magnitude), "unit": value.unit}
+            return _quantity(value)
         case ObjectRef() | StationRef():
             return value.name
         case PlaceRef():
@@ -139,8 +140,13 @@ def _line(span: Span, sources: Sources) -> int | None:
     return source.line_number(span.start) if source else None
 
 
-def _number(value: Fraction) -> int | float:
-    return value.numerator if value.denominator == 1 else float(value)
+def _quantity(value: Quantity) -> dict[str, Json]:
+    magnitude = value.magnitude
+    if magnitude.denominator == 1:
+        return {"value": magnitude.numerator, "unit": value.unit}
+    near = float(magnitude)
+    form: dict[str, Json] = {"value": near, "unit": value.unit}
+    return form if Fraction(repr(near)) == magnitude else {**form, "exact": str(magnitude)}
 
 
 def _finite(seconds: float) -> float | None:

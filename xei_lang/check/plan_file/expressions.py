@@ -1,0 +1,82 @@
+"""Values of JSON as expressions of the language, so that one checker serves both."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from fractions import Fraction
+
+from xei_lang.diagnostics import Diagnostic, Span
+from xei_lang.ir.forms.json_tree import JsonNode
+from xei_lang.ir.forms.plan_values import PLACE, ValueReader
+from xei_lang.quantity import TYPE_DIMENSIONS, QuantityError, parse_quantity
+from xei_lang.syntax.ast import (
+    Arg,
+    Attr,
+    Bool,
+    CallExpr,
+    Expression,
+    ListLit,
+    Name,
+    Number,
+    QuantityLit,
+    StringLit,
+)
+
+_NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
+_LONGEST_NAME = 200
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class AsExpression:
+    """Makes expressions; of what is measured, either its `lower` or its `upper` end stands for it."""
+
+    end: str
+
+    def of(self, node: JsonNode, type_: str | None) -> Expression | None:
+        """The expression that a value is written as where a type is expected.
+
+        None for what cannot be a value at all, of which the reader of the form has told.
+        """
+        value, span = node.value, node.span
+        if node.kind == "array":
+            inner = type_[5:-1] if type_ and type_.startswith("List[") else None
+            items = [self.of(item, inner) for item in node.elements]
+            whole = tuple(item for item in items if item is not None)
+            return ListLit(whole, span) if len(whole) == len(items) else None
+        if node.kind == "object":
+            if "measured" in node.items:
+                return self.of(node.items[self.end], type_)
+            quantity = ValueReader().quantity(node)
+            return QuantityLit(quantity, span) if quantity is not None else None
+        if isinstance(value, bool):
+            return Bool(value, span)
+        if isinstance(value, (int, float)):
+            return Number(value if isinstance(value, int) else Fraction(repr(value)), span)
+        return _text(str(value), type_, span)
+
+
+def reports(node: JsonNode, type_: str | None) -> list[Diagnostic]:
+    """What the reader of the form says of a value."""
+    reader = ValueReader()
+    reader.value(node, type_)
+    return reader.found
+
+
+def _text(text: str, type_: str | None, span: Span) -> Expression | None:
+    if type_ in TYPE_DIMENSIONS:
+        try:
+            return QuantityLit(parse_quantity(text), span)
+        except QuantityError:
+            return None
+    place = PLACE.fullmatch(text)
+    if type_ == "String" or len(text) > _LONGEST_NAME:
+        return StringLit(text, span)
+    if place is not None and _NAME.fullmatch(place["object"]):
+        return _place(place, span)
+    return Name(text, span) if _NAME.fullmatch(text) else StringLit(text, span)
+
+
+def _place(found: re.Match[str], span: Span) -> Expression:
+    key = Arg(None, StringLit(found["key"], span), span)
+    return CallExpr(Attr(Name(found["object"], span), Name(found["kind"], span), span), (key,), span)
