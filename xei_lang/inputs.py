@@ -41,6 +41,7 @@ class Inputs:
         self._only: dict[Path, Path | None] = {}
         self._read: dict[tuple[Path, str, str], LoadedFile | Unusable] = {}
         self._files: dict[Path, ProfileFiles | OSError] = {}
+        self._states: dict[Path, str] = {}
         self._loaded: dict[Path, Loaded] = {}
 
     @property
@@ -87,10 +88,15 @@ class Inputs:
 
     def state(self, folder: Path) -> str:
         """A digest of everything that loading the profile in a folder depends on."""
-        files = self._profile_files(folder)
-        if isinstance(files, OSError):
-            return digest_of(str(folder), files.errno, files.filename, folder.exists())
-        return key_of(files)
+        if folder not in self._states:
+            files = self._profile_files(folder)
+            broken = isinstance(files, OSError)
+            self._states[folder] = (
+                digest_of(str(folder), files.errno, files.filename, folder.exists())
+                if broken
+                else key_of(files)
+            )
+        return self._states[folder]
 
     def _profile_files(self, folder: Path) -> ProfileFiles | OSError:
         if folder not in self._files:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -98,9 +99,7 @@ def _known(file: Path, options: Options, inputs: Inputs, cache: ResultCache) -> 
 
 def _fresh(files: Sequence[Path], run: Run, inputs: Inputs) -> list[Checked]:
     """The files checked anew; the first one here, so that the processes begin with everything loaded."""
-    from xei_lang.cli.workers import can_fork
-
-    alone = len(files) if run.jobs == 1 or not can_fork() else 1
+    alone = 1 if run.jobs > 1 and hasattr(os, "fork") else len(files)
     done: list[Checked] = []
     for file in files[:alone]:
         done.append(_lean(check_file(file, run.options, inputs)))

@@ -45,11 +45,6 @@ class _Worker:
     received: bytearray = field(default_factory=bytearray)
 
 
-def can_fork() -> bool:
-    """Whether this system makes processes by fork."""
-    return hasattr(os, "fork")
-
-
 def in_processes(work: Work, count: int, processes: int, progress: Callable[[int], None]) -> list[Any]:
     """The results of `work` for the items 0 to `count - 1`, in their order. `progress` is told how many are
     done.
