@@ -9,6 +9,7 @@ from fractions import Fraction
 from math import ceil
 from typing import Any
 
+from xei_lang.check import affine
 from xei_lang.check.run_time import MAX_FORMULA, formula_of, needs_of
 from xei_lang.check.values import Interval, Numeric, Val, number
 from xei_lang.quantity import Quantity
@@ -44,29 +45,31 @@ def combine(op: str, left: Val, right: Val) -> Val:
     """`left op right` for numeric values.
 
     Raises DimensionError where the dimensions do not go together, ZeroDivisionError where the divisor is or
-    may be zero, TooLargeError for numbers of absurdly many digits. Each occurrence of an open value counts
-    as its own: `v - v` is an interval about zero.
+    may be zero, TooLargeError for numbers of absurdly many digits. Sums, differences and multiples know an
+    open value again (`v - v` is nothing); elsewhere each occurrence counts as its own.
     """
     if not isinstance(left, Interval) and not isinstance(right, Interval):
         return _apply(op, _numeric(left), _numeric(right))
     lows, highs = _as_interval(left), _as_interval(right)
     if op == "/" and _has_zero(highs):
         raise ZeroDivisionError
+    formula = f"{formula_of(left)} {op} {formula_of(right)}" if needs_of(left, right) else ""
+    linear = affine.linear(op, _either(left), _either(right), _apply)
+    if linear is not None:
+        return _measured(linear, formula, left, right) if linear.shares else linear.lower
     corners = [_apply(op, a, b) for a in (lows.lower, lows.upper) for b in (highs.lower, highs.upper)]
     ordered = sorted(corners, key=lambda corner: _lifted(corner).value)
     nominal = _apply(op, lows.nominal, highs.nominal)
-    return _measured(
-        Interval(ordered[0], ordered[-1], nominal),
-        f"{formula_of(left)} {op} {formula_of(right)}",
-        left,
-        right,
-    )
+    made = affine.opened(Interval(ordered[0], ordered[-1], nominal), _apply)
+    return _measured(made, formula, left, right)
 
 
 def negate(value: Val) -> Val:
     """`-value`, for a numeric value."""
     if isinstance(value, Interval):
-        turned = Interval(_negative(value.upper), _negative(value.lower), _negative(value.nominal))
+        shares = tuple((unknown, _negative(width)) for unknown, width in value.shares)
+        ends = (_negative(value.upper), _negative(value.lower), _negative(value.nominal))
+        turned = Interval(*ends, shares=shares)
         return _measured(turned, f"-{formula_of(value)}", value)
     return _negative(_numeric(value))
 
@@ -79,7 +82,7 @@ def extreme(name: str, left: Val, right: Val) -> Val:
     first, second = _as_interval(left), _as_interval(right)
     ends = ((first.lower, second.lower), (first.upper, second.upper), (first.nominal, second.nominal))
     lower, upper, nominal = (b if _ordered(op, b, a) else a for a, b in ends)
-    chosen = Interval(lower, upper, nominal)
+    chosen = affine.opened(Interval(lower, upper, nominal), _apply)
     return _measured(chosen, f"{name}({formula_of(left)}, {formula_of(right)})", left, right)
 
 
@@ -143,6 +146,15 @@ def _negative(value: Numeric) -> Numeric:
 
 def _lifted(value: Numeric) -> Quantity:
     return value if isinstance(value, Quantity) else Quantity(Fraction(value), NUMBER, "")
+
+
+def open_value(lower: Numeric, upper: Numeric, nominal: Numeric) -> Interval:
+    """A value of its own that lies between two ends, of the same dimension."""
+    return affine.opened(Interval(lower, upper, nominal), _apply)
+
+
+def _either(value: Val) -> Interval | Numeric:
+    return value if isinstance(value, Interval) else _numeric(value)
 
 
 def _as_interval(value: Val) -> Interval:

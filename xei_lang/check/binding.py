@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
 from xei_lang.check import arithmetic
@@ -255,7 +255,7 @@ class Binder:
                 "the ends are swapped",
             )
             return POISON
-        return Interval(low, high, low)  # type: ignore[arg-type]
+        return arithmetic.open_value(low, high, low)  # type: ignore[arg-type]
 
     def inside(self, value: Val, limits: Val | None, node: Param, span: Span, words: str) -> Val:
         """The value, if it lies inside the parameter's own limits."""
@@ -284,4 +284,4 @@ class Binder:
 
 
 def _about(limits: Interval, default: Val) -> Interval:
-    return Interval(limits.lower, limits.upper, default)  # type: ignore[arg-type]
+    return replace(limits, nominal=default)

@@ -21,7 +21,7 @@ from xei_lang.check.values import (
     show,
     to_plan,
 )
-from xei_lang.check.volumes import Amount
+from xei_lang.check.volumes import WRONG, Amount
 from xei_lang.diagnostics import Label, Span, did_you_mean
 from xei_lang.ir.skill_plan import ObjectRef
 from xei_lang.profiles.model import FiniteState
@@ -59,9 +59,9 @@ class Givens:
         strength = None
         if node.concentration is not None:
             strength = self._value(node.concentration, "`at`", "Concentration", scope, state)
-        if thing is None or isinstance(amount, Poison) or not isinstance(content, str):
+        if thing is None:
             return
-        if self._is_new("contents", thing.name, node.span):
+        if isinstance(content, str) and self._is_new("contents", thing.name, node.span):
             known = isinstance(strength, (Quantity, Interval))
             state.set("contents", thing.name, ((content, to_plan(strength)) if known else content,))
         self._volume(thing, amount, node.amount, node.span, state)
@@ -108,11 +108,9 @@ class Givens:
             self._finite(variable, thing, right, span, scope, state)
             return
         value = self._value(right, what, _TYPES[variable.id], scope, state)
-        if isinstance(value, Poison):
-            return
         if variable.id == "volume":
             self._volume(thing, value, right, span, state)
-        elif self._is_new(variable.id, thing.name, span):
+        elif not isinstance(value, Poison) and self._is_new(variable.id, thing.name, span):
             made = (to_plan(value),) if variable.id == "contents" else to_plan(value)
             state.set(variable.id, thing.name, made)
 
@@ -121,7 +119,10 @@ class Givens:
         if isinstance(low, Quantity) and low.value < 0:
             message = f"`{thing.name}` cannot hold {show(value)}, less than nothing"
             self._reporter.report("XEI0323", message, node.span, f"this is {show(value)}")
-        elif isinstance(value, (Quantity, Interval)) and self._is_new("volume", thing.name, span):
+            state.set_volume(thing.name, WRONG)
+        elif not isinstance(value, (Quantity, Interval)):
+            state.set_volume(thing.name, WRONG)
+        elif self._is_new("volume", thing.name, span):
             label = Label(node.span, f"`{thing.name}` holds {show(nominal(value))} to begin with")
             state.set_volume(thing.name, Amount(value, (label,)))
 

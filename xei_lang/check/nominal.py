@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from xei_lang.check.expectation import Expectation
 from xei_lang.check.values import POISON, ObjectValue, Poison, Val
-from xei_lang.check.volumes import Amount
+from xei_lang.check.volumes import WRONG, Amount
 from xei_lang.diagnostics import Span
 from xei_lang.syntax.ast import CallExpr, Name
 
@@ -61,7 +61,8 @@ class Nominal:
 
     def _unknown(self, thing: ObjectValue, amount: Amount, node: CallExpr) -> None:
         expander = self._expander
-        if expander.alone or (amount.labels and expander.context.options.open_bindings):
+        is_open = bool(amount.labels) and expander.context.options.open_bindings
+        if expander.alone or amount is WRONG or is_open:
             return
         given = f"`given volume({thing.name}) == 0 mL`"
         expander.context.reporter.report(

@@ -9,11 +9,11 @@ from typing import Literal
 
 from xei_lang.check import arithmetic
 from xei_lang.check.state import State
-from xei_lang.check.values import POISON, Interval, ListValue, ObjectValue, Val, number, show
-from xei_lang.check.volumes import NEVER_SAID
+from xei_lang.check.values import POISON, ListValue, ObjectValue, Val, number, show
+from xei_lang.check.volumes import NEVER_SAID, WRONG
 from xei_lang.diagnostics import Label, Span
 from xei_lang.profiles.model import SkillSpec
-from xei_lang.quantity import DimensionError, Quantity
+from xei_lang.quantity import DimensionError
 from xei_lang.syntax.ast import Binary, CallExpr, Expression, Name, Number, QuantityLit, Unary, Update
 
 _VOLUME = "volume"
@@ -53,6 +53,7 @@ def apply_transfers(
 ) -> None:
     """Bring the volumes from before a step to after it. Every value is that from before the step."""
     values = [_evaluate(transfer.value, args, state) for transfer in transfers]
+    is_wrong = POISON in args.values()
     for transfer, value in zip(transfers, values, strict=True):
         subject = args.get(transfer.subject)
         things = subject.items if isinstance(subject, ListValue) else (subject,)
@@ -61,12 +62,17 @@ def apply_transfers(
             shares = (POISON,) * len(things)
         for thing, share in zip(things, shares, strict=True):
             if isinstance(thing, ObjectValue):
-                _change(thing.name, transfer.op, share, state, skill, at)
+                before = state.volumes.get(thing.name)
+                wrong = share is POISON and is_wrong and before is not NEVER_SAID
+                if wrong:
+                    state.set_volume(thing.name, WRONG)
+                else:
+                    _change(thing.name, transfer.op, share, state, skill, at)
 
 
 def _change(name: str, op: str, share: Val, state: State, skill: str, at: Span) -> None:
     before = state.volumes.get(name)
-    if before is NEVER_SAID and op != ":=":
+    if (before is NEVER_SAID or before is WRONG) and op != ":=":
         return
     after = share if op == ":=" else _combine(op[0], before.value, share)
     words = "leaves a volume that is not known" if after is POISON else f"leaves {show(after)}"
@@ -76,11 +82,6 @@ def _change(name: str, op: str, share: Val, state: State, skill: str, at: Span) 
 def _combine(op: str, left: Val, right: Val) -> Val:
     if left is POISON or right is POISON:
         return POISON
-    if op == "-" and left is right and isinstance(left, Interval):
-        # What is taken out is all that is in it: one open value, not two.
-        return arithmetic.combine("*", left.nominal, 0)
-    if op == "+" and isinstance(left, Quantity) and left.value == 0 and isinstance(right, Interval):
-        return right
     try:
         return arithmetic.combine(op, left, right)
     except (DimensionError, ArithmeticError, TypeError):

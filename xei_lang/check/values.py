@@ -33,12 +33,22 @@ POISON: Final = Poison.POISON
 Numeric = Quantity | int | Fraction
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Unknown:
+    """Something between nothing and all that is not known yet: one for each value that is open by itself."""
+
+
+Shares = tuple[tuple[Unknown, Numeric], ...]
+"""How much of a value goes with each unknown, from its lower end to its upper one."""
+
+
 @dataclass(frozen=True, slots=True)
 class Interval:
     """A value of which only the bounds are known, ends included; `nominal` stands for it where one is
     needed.
 
     What the measuring steps `needs` give has a `formula` in their ids, and nothing may stand for it.
+    `shares`, where they are known, say how it goes with what is unknown, so that `v - v` is nothing.
     """
 
     lower: Numeric
@@ -46,6 +56,7 @@ class Interval:
     nominal: Numeric
     formula: str = ""
     needs: tuple[str, ...] = ()
+    shares: Shares = ()
 
 
 @dataclass(frozen=True, slots=True)

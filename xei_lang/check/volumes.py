@@ -31,6 +31,9 @@ class Amount:
 NEVER_SAID = Amount(POISON, ())
 """What nothing has been said of."""
 
+WRONG = Amount(POISON, ())
+"""What was said wrongly, which is reported: nothing more needs to be said of it."""
+
 
 class Volumes:
     """The amounts by the names of things."""
