@@ -224,13 +224,13 @@ def _ground(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
 
 def _lower_goals(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
     """`SkillPlan` and `World` to `MotionGoalGraph`, by the skills' templates."""
-    from xei_lang.lower import lower
+    from xei_lang.lower import imprecise_tasks, lower
 
     assert made.plan is not None
     assert made.profile is not None
     assert made.world is not None
     graph, said = lower(made.plan, made.profile, made.world)
-    return replace(made, graph=graph), said
+    return replace(made, graph=graph), (*said, *imprecise_tasks(made.plan, made.profile, made.world))
 
 
 def _plan(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:

@@ -98,7 +98,8 @@ def test_no_error_within_the_links_moves_a_point_by_more_than_the_tolerance(
     wrong = world_of([_moved(frame, *move) for frame, move in zip(world.frames, moves, strict=True)])
     stated = lookup(world, target, source, point)
     actual = lookup(wrong, target, source).T_target_source.apply(point)
-    # The bound is of first order: levers are those of the stated frames; what errors do to each other is over.
+    # The bound is of first order: levers are those of the stated frames, what errors do to each other is
+    # over.
     turns = sum(frame.rotation_tolerance_rad for frame in stated.links)
     second_order = turns * (sum(frame.position_tolerance_m for frame in stated.links) + 7.0 * turns)
     shift = math.dist(actual, stated.T_target_source.apply(point))

@@ -8,6 +8,7 @@ from __future__ import annotations
 from xei_lang.doctor.blocker import STAGES, Blocker, Stage
 from xei_lang.doctor.calibration import calibration_blockers
 from xei_lang.doctor.lab import lab_blockers
+from xei_lang.doctor.precision import precision_blockers
 from xei_lang.doctor.reach import reach_blockers
 from xei_lang.profiles.model import Profile
 
@@ -16,5 +17,10 @@ __all__ = ["STAGES", "Blocker", "Stage", "deployment_blockers"]
 
 def deployment_blockers(profile: Profile) -> tuple[Blocker, ...]:
     """All that a profile by itself tells, in a fixed order; nothing outside of it is asked."""
-    found = (*calibration_blockers(profile), *lab_blockers(profile), *reach_blockers(profile))
+    found = (
+        *calibration_blockers(profile),
+        *lab_blockers(profile),
+        *reach_blockers(profile),
+        *precision_blockers(profile),
+    )
     return tuple(dict.fromkeys(found))

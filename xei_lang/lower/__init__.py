@@ -5,5 +5,6 @@ planners.
 from __future__ import annotations
 
 from xei_lang.lower.lower import lower
+from xei_lang.lower.precision import imprecise_tasks
 
-__all__ = ["lower"]
+__all__ = ["imprecise_tasks", "lower"]

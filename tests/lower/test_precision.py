@@ -1,0 +1,59 @@
+"""Tasks that need a place known better than it is: told once a rack, and only where something must fit."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from tests.lower.plans import bench, obj, plan, slot, spot, with_object
+from xei_lang.ir.skill_plan import SkillPlan
+from xei_lang.lower import imprecise_tasks
+from xei_lang.world.precision import slot_precision
+
+
+def carried(*moves: tuple[str, str, str]) -> SkillPlan:
+    calls = ({"object": obj(name), "to": slot(rack, key)} for name, rack, key in moves)
+    return plan(*(("move_object", args) for args in calls))
+
+
+def test_each_rack_is_told_of_once() -> None:
+    profile, world = bench()
+    moves = carried(("tube_1", "rack_2", "A1"), ("tube_2", "rack_2", "A2"), ("tube_1", "rack_1", "C1"))
+    told = list(imprecise_tasks(moves, profile, world))
+    assert [item.message for item in told] == [
+        '`tube_1` may miss `rack_2.slot("A1")`',
+        '`tube_1` may miss `rack_1.slot("C1")`',
+    ]
+    assert "`camera` (2.0 mm, 0.3 deg)" in told[0].notes[0]
+
+
+def test_a_spot_asks_for_nothing() -> None:
+    profile, world = bench()
+    moves = plan(("move_object", {"object": obj("beaker_1"), "to": spot("table", "beaker")}))
+    assert not list(imprecise_tasks(moves, profile, world))
+
+
+def test_a_wide_chamfer_or_a_close_calibration_is_enough() -> None:
+    profile, world = bench()
+    rack = profile.object("rack_2")
+    assert rack is not None and rack.slots is not None
+    wide = with_object(profile, "rack_2", replace(rack, slots=replace(rack.slots, chamfer_m=0.01)))
+    moves = carried(("tube_1", "rack_2", "A1"))
+    assert not list(imprecise_tasks(moves, wide, world))
+    exact = tuple(
+        replace(frame, position_tolerance_m=0.0, rotation_tolerance_rad=0.0) for frame in world.frames
+    )
+    assert not list(imprecise_tasks(moves, profile, replace(world, frames=exact)))
+
+
+def test_the_better_of_two_ways_counts() -> None:
+    profile, world = bench()
+    rack, tube = profile.object("rack_2"), profile.object("tube_1")
+    assert rack is not None and tube is not None
+    found = slot_precision(world, profile, rack, "A1", tube)
+    assert found is not None
+    assert found.way.path == ("robot_base", "slide", "camera")
+    blind = replace(profile, calibration=replace(profile.calibration, cameras=()))
+    docked = slot_precision(world, blind, rack, "A1", tube)
+    assert docked is not None
+    assert docked.way.path == ("robot_base", "world", "table")
+    assert docked.tolerance_m > 0.08 > found.tolerance_m

@@ -1,0 +1,54 @@
+"""Slots whose place is known worse than the gap around what goes into them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from xei_lang.doctor.blocker import Blocker
+from xei_lang.ir.world import World
+from xei_lang.profiles.files import CALIBRATION
+from xei_lang.profiles.grid import slot_keys
+from xei_lang.profiles.model import LabObject, Profile
+from xei_lang.world.ground import ground
+from xei_lang.world.precision import SlotPrecision, slot_precision
+
+
+def precision_blockers(profile: Profile) -> Iterator[Blocker]:
+    """One blocker for each object with slots that the widest object they accept may miss."""
+    world, _ = ground(profile)
+    for holder in profile.objects if world is not None else ():
+        assert world is not None
+        worst = _worst(profile, world, holder)
+        if worst is not None:
+            name, found = worst
+            yield _blocker(profile, holder, name, found)
+
+
+def _worst(profile: Profile, world: World, holder: LabObject) -> tuple[str, SlotPrecision] | None:
+    grid = holder.slots
+    takes = [item for item in profile.objects if grid and set(item.roles) & set(grid.accepts)]
+    if grid is None or not takes:
+        return None
+    widest = max(takes, key=lambda item: max(item.size_m[:2]))
+    found = [slot_precision(world, profile, holder, key, widest) for key in slot_keys(grid)]
+    known = [item for item in found if item is not None and not item.is_enough]
+    return (widest.name, max(known, key=lambda item: item.tolerance_m)) if known else None
+
+
+def _blocker(profile: Profile, holder: LabObject, name: str, found: SlotPrecision) -> Blocker:
+    calibrated = {frame.name for frame in profile.calibration.frames}
+    weak = max(
+        (link for link in found.way.links if link.name in calibrated),
+        key=lambda link: (link.position_tolerance_m, link.rotation_tolerance_rad),
+        default=found.way.links[-1],
+    )
+    item = f"frames.{weak.name}.tolerance"
+    measure = (
+        f"calibrate `{weak.name}` more closely, or give `{holder.name}` wider chamfers: its slots take "
+        f"`{name}` with an error of {found.capture_m * 1000:.1f} mm, and may be "
+        f"{found.tolerance_m * 1000:.1f} mm off"
+    )
+    where = f"slots.{holder.name}"
+    return Blocker(
+        "XEI0676", "world", where, "imprecise", "hardware", measure, f"{CALIBRATION}:{item}", holder.span
+    )

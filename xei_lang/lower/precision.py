@@ -1,0 +1,70 @@
+"""Tasks that ask for more than is known: an object into a slot whose place is known worse than the gap."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from xei_lang.check.effects import effects_of, moves
+from xei_lang.diagnostics import Diagnostic
+from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, SkillPlan, Step
+from xei_lang.ir.world import World
+from xei_lang.lower.seats import place_text
+from xei_lang.profiles.model import Profile
+from xei_lang.world.precision import SlotPrecision, slot_precision
+from xei_lang.world.transforms import Transform
+
+
+def imprecise_tasks(plan: SkillPlan, profile: Profile, world: World) -> Iterator[Diagnostic]:
+    """One warning for each object with slots, at the first step that puts something into one.
+
+    A simulation knows where everything is; on hardware such a task is a matter of luck.
+    """
+    warned: set[str] = set()
+    for step in plan.steps:
+        for name, place in _insertions(step, profile):
+            holder, item = profile.object(place.object), profile.object(name)
+            if holder is None or item is None or holder.name in warned:
+                continue
+            found = slot_precision(world, profile, holder, place.key, item)
+            if found is not None and not found.is_enough:
+                warned.add(holder.name)
+                yield _warning(step, name, place, found)
+
+
+def _insertions(step: Step, profile: Profile) -> Iterator[tuple[str, PlaceRef]]:
+    skill = profile.bank.skill(step.skill)
+    for subject, destination in moves(effects_of(skill)) if skill else ():
+        item, place = step.arg(subject), step.arg(destination)
+        if isinstance(item, ObjectRef) and isinstance(place, PlaceRef) and place.kind == "slot":
+            yield item.name, place
+
+
+def _warning(step: Step, name: str, place: PlaceRef, found: SlotPrecision) -> Diagnostic:
+    return Diagnostic(
+        "XEI0717",
+        f"`{name}` may miss `{place_text(place)}`",
+        step.span,
+        label=f"the slot takes an error of {_mm(found.capture_m)}, and may be {_mm(found.tolerance_m)} off",
+        notes=(f"known by way of {_shown(found.way)}",),
+        help=(
+            "measure these transforms more closely, or use slots with a wider chamfer; a simulation goes on",
+        ),
+    )
+
+
+def _shown(way: Transform) -> str:
+    parts = [
+        f"`{link.name}` ({_mm(link.position_tolerance_m)}, {_degrees(link.rotation_tolerance_rad)})"
+        for link in way.links
+        if link.position_tolerance_m or link.rotation_tolerance_rad
+    ]
+    return " and ".join(parts)
+
+
+def _degrees(angle_rad: float) -> str:
+    return f"{math.degrees(angle_rad):.2g} deg"
+
+
+def _mm(length_m: float) -> str:
+    return f"{length_m * 1000:.1f} mm"

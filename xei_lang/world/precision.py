@@ -1,0 +1,59 @@
+"""Whether what is known of the bench is known well enough for what is to fit into it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from xei_lang.ir.geometry import Pose
+from xei_lang.ir.world import World
+from xei_lang.profiles.grid import T_frame_object, T_object_slot
+from xei_lang.profiles.model import LabObject, Profile
+from xei_lang.world.transforms import Transform, lookup
+
+BASE = "robot_base"
+
+
+@dataclass(frozen=True, slots=True)
+class SlotPrecision:
+    """How far an object may miss a slot, and how far the slot may be from where the robot takes it to be.
+
+    `capture_m` is the gap around the object and the chamfer that leads it in; `tolerance_m` bounds the error
+    of the slot's mouth in the robot's base, along `way`.
+    """
+
+    capture_m: float
+    tolerance_m: float
+    way: Transform
+
+    @property
+    def is_enough(self) -> bool:
+        """Whether the object finds the slot wherever it may be."""
+        return self.tolerance_m <= self.capture_m
+
+
+def slot_precision(
+    world: World, profile: Profile, holder: LabObject, key: str, item: LabObject
+) -> SlotPrecision | None:
+    """The precision of a slot for an object; None where the slot or its object has no place in the world.
+
+    The bench is taken to be grounded by a camera wherever that is better than the way over the docked base.
+    """
+    grid, placed, T_holder_slot = holder.slots, T_frame_object(profile, holder), T_object_slot(holder, key)
+    if grid is None or placed is None or T_holder_slot is None:
+        return None
+    frame, T_frame_holder = placed
+    T_world_slot = world.T_world_frame(frame) @ T_frame_holder @ T_holder_slot
+    ways = [_way(world, end, T_world_slot) for end in (frame, *_cameras(world, profile))]
+    best = min(ways, key=lambda way: way.position_tolerance_m)
+    capture_m = (grid.bore_m - max(item.size_m[:2])) / 2 + grid.chamfer_m
+    return SlotPrecision(capture_m, best.position_tolerance_m, best)
+
+
+def _cameras(world: World, profile: Profile) -> list[str]:
+    """The frames of the cameras that ground benches."""
+    return [camera.frame for camera in profile.calibration.cameras if world.frame(camera.frame)]
+
+
+def _way(world: World, end: str, T_world_slot: Pose) -> Transform:
+    point = (world.T_world_frame(end).inverse() @ T_world_slot).position_m
+    return lookup(world, BASE, end, point)
