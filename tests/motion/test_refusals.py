@@ -7,7 +7,8 @@ from dataclasses import replace
 from tests.motion.sequence.bench import DESCRIPTION, bench, goals, obj, plan, planned, slot, spot
 from xei_lang.diagnostics import Diagnostic
 from xei_lang.ir.geometry import Pose
-from xei_lang.ir.goals import JointTarget, MotionGoal, MotionGoalGraph, MoveTo, PathKind
+from xei_lang.ir.goals import JointTarget, MotionGoal, MotionGoalGraph, MoveTo
+from xei_lang.ir.tool_paths import Turn
 from xei_lang.ir.world import World
 from xei_lang.motion.plan import plan_motion
 from xei_lang.motion.robot import load_robot
@@ -70,15 +71,19 @@ def test_a_way_that_is_walled_off_between_two_places_names_the_wall() -> None:
     assert said.help[0].startswith("without `table_b` there is a way")
 
 
-def test_a_kind_of_path_that_is_not_planned_is_named() -> None:
+def test_a_path_that_is_not_described_or_leads_elsewhere_is_refused() -> None:
     profile, world = bench()
     graph = goals(PUT, profile, world)
     index, move = first_linear(graph)
-    kind: PathKind = "arc"
-    said = refused(with_action(graph, index, replace(move, path=kind)))
+    said = refused(with_action(graph, index, replace(move, path="arc")))
     assert said.code == "XEI0806"
-    assert said.message == "the path kind `arc` is not planned yet"
-    assert said.notes == ("this version plans `free` and `linear` paths of the tool",)
+    assert said.message == "the way of the right arm cannot be planned: its path `arc` is not described"
+    turn = Turn((0.5, 0.0, 1.0), (0.0, 0.0, 1.0), 0.5)
+    last = len(graph.goals) - 1
+    action = graph.goals[last].action
+    assert isinstance(action, MoveTo)
+    said = refused(with_action(graph, last, replace(action, path="arc", along=turn)))
+    assert said.message.startswith("the way of the right arm cannot be planned: its path ")
 
 
 def test_a_linear_move_needs_something_to_start_from() -> None:

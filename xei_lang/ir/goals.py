@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from xei_lang.diagnostics import Span
 from xei_lang.ir.geometry import Pose, Vec3
 from xei_lang.ir.skill_plan import Side
+from xei_lang.ir.tool_paths import ToolPath
 
 if TYPE_CHECKING:
     import networkx
@@ -22,6 +23,7 @@ GoalKind = Literal[
     "move_to", "open_gripper", "close_gripper", "set_do", "slide_move", "nav_to_pose", "wait", "perceive",
     "confirm", "instrument", "attach", "detach",
 ]  # fmt: skip
+RunEvent = Literal["start", "pause", "resume", "await", "stop"]
 PathKind = Literal["free", "linear", "arc", "screw", "raster"]
 
 
@@ -84,6 +86,8 @@ class MoveTo:
     """Bring the tool of `arm` (or, for a joint target, the joints it names) to a target.
 
     `keep_upright` bounds the tilt of what is held; `speed_fraction` scales the velocity limits, in (0, 1].
+    `along` says how the tool goes there on an arc or a screw (`Turn`) or a raster (`Raster`); its end is the
+    target. `tool_speed_m_s` and `tool_turn_rad_s` bound how fast the tool moves and turns on its way.
     """
 
     target: ToolTarget | JointTarget
@@ -91,6 +95,9 @@ class MoveTo:
     path: PathKind = "free"
     keep_upright: bool = False
     speed_fraction: float = 1.0
+    along: ToolPath | None = None
+    tool_speed_m_s: float | None = None
+    tool_turn_rad_s: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,10 +160,18 @@ class Confirm:
 
 @dataclass(frozen=True, slots=True)
 class Instrument:
-    """A command to an instrument that then works on its own."""
+    """A command to an instrument that then works on its own; the goal's parameters are those of the command.
+
+    Work that goes on while other goals happen is a *run*, named by the step that starts it, and `event` is
+    what the goal means to it. An `await` lasts until the instrument has worked for `work_s` seconds since the
+    end of `start`, the time from `pause` to `resume` left out. A run without an end outlives the plan.
+    """
 
     instrument: str
     command: str
+    run: str = ""
+    event: RunEvent | None = None
+    work_s: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -28,6 +28,8 @@ from xei_lang.ir.goals import (
     ToolTarget,
     Wait,
 )
+from xei_lang.ir.verify_runs import run_problems
+from xei_lang.ir.verify_tool_paths import path_problems
 
 _UNIT = 1e-6
 _ACTION_OF_KIND: dict[str, type] = {
@@ -52,12 +54,16 @@ def verify_goals(graph: MotionGoalGraph) -> tuple[str, ...]:
     Checked: unique ids; edges between known goals that run forward (so there is no cycle); actions that fit
     their kinds; known, non-empty families with finite members; finite poses and unit quaternions; epochs
     that start at 0, are all described and grow by one with each drive; hands that attach and detach in
-    turn, the object and family that they hold; durations, openings and speeds within their ranges.
+    turn, the object and family that they hold; durations, openings and speeds within their ranges; paths of
+    the tool that are stated where they must be, and lead from the move before to their target; runs of
+    instruments that begin once, go on one at a time, and are paused, resumed and ended in turn.
     """
     problems = [*_ids_and_edges(graph), *_families(graph), *_epochs(graph)]
     families = {family.id for family in graph.families}
     for goal in graph.goals:
         problems.extend(f"goal `{goal.id}`: {text}" for text in _goal(goal, families))
+    problems.extend(path_problems(graph))
+    problems.extend(run_problems(graph))
     problems.extend(_hands(graph))
     return tuple(problems)
 

@@ -1,9 +1,8 @@
-"""Tool poses: members that are turns of each other, and straight lines."""
+"""Tool poses: members that are turns of each other."""
 
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 
 import numpy as np
 from hypothesis import given
@@ -11,7 +10,7 @@ from hypothesis import strategies as st
 
 from xei_lang.ir.geometry import Pose
 from xei_lang.ir.goals import Family, ToolPose, ToolTarget
-from xei_lang.motion.sequence.poses import interpolate, matrix, orbits, pose_of, same_grasp, tool_poses
+from xei_lang.motion.sequence.poses import matrix, orbits, pose_of, same_grasp, tool_poses
 
 angles = st.floats(-math.pi, math.pi)
 
@@ -39,19 +38,6 @@ def test_offsets_are_taken_in_base_and_in_tool() -> None:
         "f", Pose((0.4, 0.1, 0.7)), offset_base_m=(0.0, 0.0, 0.1), offset_tool_m=(0.0, 0.0, -0.08)
     )
     assert np.allclose(tool_poses(target, family(down))[0][:3, 3], [0.4, 0.1, 0.7 + 0.05 + 0.1 + 0.08])
-
-
-@given(angles, angles, angles)
-def test_lines_run_straight_from_end_to_end(roll: float, pitch: float, yaw: float) -> None:
-    start, end = Pose((0.1, 0.2, 0.3)), Pose.from_rpy((0.4, 0.2, 0.1), (roll, pitch, yaw))
-    line = interpolate(matrix(start), matrix(end), 0.01, 0.07)
-    assert np.allclose(line[0], matrix(start))
-    assert np.allclose(line[-1], matrix(end), atol=1e-12)
-    steps = np.diff(line[:, :3, 3], axis=0)
-    assert np.linalg.norm(steps, axis=1).max() <= 0.01 + 1e-12
-    assert np.allclose(steps, steps[0])
-    turns = [float(np.trace(a[:3, :3].T @ b[:3, :3])) for a, b in pairwise(line)]
-    assert np.ptp(turns) < 1e-6
 
 
 @given(angles, angles, angles)

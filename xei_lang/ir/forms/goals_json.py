@@ -2,7 +2,8 @@
 `goals.schema.json`).
 
 Spans count characters from 0 in their file, end excluded. A duration without a bound is `null`. Every
-action carries what its dataclass in `ir/goals.py` says, under the same names.
+action carries what its dataclass in `ir/goals.py` says, under the same names; a move without a stated path
+or bound of the tool has no such key.
 """
 
 from __future__ import annotations
@@ -33,6 +34,7 @@ from xei_lang.ir.goals import (
     ToolTarget,
     Wait,
 )
+from xei_lang.ir.tool_paths import ToolPath, Turn
 
 
 def to_json(graph: MotionGoalGraph) -> dict[str, Json]:
@@ -97,13 +99,7 @@ def _span(span: Span) -> dict[str, Json]:
 
 def _action(action: Action) -> dict[str, Json]:
     if isinstance(action, MoveTo):
-        return {
-            "arm": action.arm,
-            "path": action.path,
-            "keep_upright": action.keep_upright,
-            "speed_fraction": action.speed_fraction,
-            "target": _target(action.target),
-        }
+        return _move(action)
     if isinstance(action, Grip):
         return {"arm": action.arm, "opening_m": action.opening_m, "force_n": action.force_n}
     if isinstance(action, Attach):
@@ -123,6 +119,46 @@ def _action(action: Action) -> dict[str, Json]:
             "rotation_tolerance_rad": action.rotation_tolerance_rad,
         }
     return _plain(action)
+
+
+def _move(action: MoveTo) -> dict[str, Json]:
+    value: dict[str, Json] = {
+        "arm": action.arm,
+        "path": action.path,
+        "keep_upright": action.keep_upright,
+        "speed_fraction": action.speed_fraction,
+        "target": _target(action.target),
+    }
+    if action.along is not None:
+        value["along"] = _tool_path(action.along)
+    if action.tool_speed_m_s is not None:
+        value["tool_speed_m_s"] = action.tool_speed_m_s
+    if action.tool_turn_rad_s is not None:
+        value["tool_turn_rad_s"] = action.tool_turn_rad_s
+    return value
+
+
+def _instrument(action: Instrument) -> dict[str, Json]:
+    value: dict[str, Json] = {"instrument": action.instrument, "command": action.command}
+    if action.event is not None:
+        value.update(run=action.run, event=action.event, work_s=action.work_s)
+    return value
+
+
+def _tool_path(path: ToolPath) -> dict[str, Json]:
+    if isinstance(path, Turn):
+        return {
+            "point_m": list(path.point_m),
+            "direction": list(path.direction),
+            "angle_rad": path.angle_rad,
+            "lead_m": path.lead_m,
+        }
+    return {
+        "corner_m": list(path.corner_m),
+        "along_m": list(path.along_m),
+        "across_m": list(path.across_m),
+        "pitch_m": path.pitch_m,
+    }
 
 
 def _target(target: ToolTarget | JointTarget) -> dict[str, Json]:
@@ -152,6 +188,6 @@ def _plain(
         case Confirm():
             return {"text": action.text}
         case Instrument():
-            return {"instrument": action.instrument, "command": action.command}
+            return _instrument(action)
         case Wait():
             return {"duration_s": action.duration_s}

@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 
 from xei_lang.ir.forms.pose_text import millimetres, pose_text
+from xei_lang.ir.geometry import Vec3
 from xei_lang.ir.goals import (
     Action,
     Attach,
@@ -29,6 +30,7 @@ from xei_lang.ir.goals import (
     Wait,
 )
 from xei_lang.ir.skill_plan import Side
+from xei_lang.ir.tool_paths import Raster, ToolPath
 
 _SHOWN_MEMBERS = 3
 
@@ -108,7 +110,8 @@ def _rest(action: Action) -> str:
     if isinstance(action, Confirm):
         return f'"{action.text}"'
     if isinstance(action, Instrument):
-        return f"{action.instrument} {action.command}"
+        until = f" until {action.run} has worked {action.work_s:g} s" if action.event == "await" else ""
+        return f"{action.instrument} {action.command}{until}"
     assert isinstance(action, Wait)
     return f"{action.duration_s:g} s"
 
@@ -116,8 +119,30 @@ def _rest(action: Action) -> str:
 def _move(action: MoveTo) -> str:
     upright = ", upright" if action.keep_upright else ""
     speed = f" at {action.speed_fraction * 100:g} %" if action.speed_fraction < 1.0 else ""
-    how = f"{action.path}{speed}{upright}"
+    how = f"{action.path}{_along(action.along)}{speed}{_bound(action)}{upright}"
     return f"move_to {_target(action.target, action.arm)} ({how})"
+
+
+def _along(path: ToolPath | None) -> str:
+    if path is None:
+        return ""
+    if isinstance(path, Raster):
+        size = (math.hypot(*path.along_m), math.hypot(*path.across_m))
+        area = " x ".join(millimetres(value) for value in size)
+        return f" over {area} mm in {path.lanes} lanes from {_vector(path.corner_m)} mm"
+    axis = ", ".join(f"{value:.3g}" for value in path.direction)
+    lead = f", {millimetres(path.lead_m)} mm a turn" if path.lead_m else ""
+    return f" by {math.degrees(path.angle_rad):.4g} deg about ({axis}) at {_vector(path.point_m)} mm{lead}"
+
+
+def _bound(action: MoveTo) -> str:
+    speed, turn = action.tool_speed_m_s, action.tool_turn_rad_s
+    told = f", at most {millimetres(speed)} mm/s" if speed is not None else ""
+    return told + (f", at most {math.degrees(turn):.4g} deg/s" if turn is not None else "")
+
+
+def _vector(vector: Vec3) -> str:
+    return f"({', '.join(millimetres(value) for value in vector)})"
 
 
 def _target(target: ToolTarget | JointTarget, arm: Side | None) -> str:

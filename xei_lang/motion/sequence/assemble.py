@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from xei_lang.ir.geometry import Pose
-from xei_lang.ir.goals import MotionGoal
+from xei_lang.ir.goals import MotionGoal, MoveTo
 from xei_lang.ir.timed import Knots, Samples, TimedGoal
 from xei_lang.motion.robot import Robot
 from xei_lang.motion.sequence.context import Context
 from xei_lang.motion.sequence.motions import Motion
 from xei_lang.motion.sequence.poses import pose_of
 from xei_lang.motion.timing.samples import sample
-from xei_lang.motion.timing.topp import InverseDynamics, TimingFailure, parameterise
+from xei_lang.motion.timing.topp import InverseDynamics, PathSpeed, TimingFailure, parameterise
 
 Array = NDArray[np.float64]
 
@@ -38,7 +39,8 @@ def time_motion(context: Context, motion: Motion, start_s: float) -> TimedGoal |
     joints = () if motion.path is None else motion.path.joints
     if motion.path is not None:
         torques = inverse_dynamics(context, motion)
-        found = parameterise(motion.path, context.limits_of(joints), torques, motion.speed_fraction)
+        limits, fastest = context.limits_of(joints), tool_bound(context, motion)
+        found = parameterise(motion.path, limits, torques, motion.speed_fraction, fastest)
         if isinstance(found, TimingFailure):
             return Untimed(motion.goal, found)
         knots = found
@@ -82,6 +84,31 @@ def loaded_robot(context: Context, motion: Motion) -> Robot:
             middle = (0.0, 0.0, item.size_m[2] / 2)
             robot = robot.with_payload(side, item.mass_kg, held.T_tool_object.apply(middle))
     return robot
+
+
+def tool_bound(context: Context, motion: Motion) -> PathSpeed | None:
+    """The path speeds at which the tool moves and turns as fast as its goal allows; None without bounds."""
+    action, path = motion.goal.action, motion.path
+    if not isinstance(action, MoveTo) or path is None or motion.arm is None:
+        return None
+    bounds = (action.tool_speed_m_s, action.tool_turn_rad_s)
+    if bounds == (None, None):
+        return None
+    limits = [math.inf if bound is None else bound for bound in bounds]
+    frame = context.robot.arm(motion.arm).tool_frame
+    columns = [context.robot.joint_names.index(joint) for joint in path.joints]
+
+    def fastest(s: Array) -> Array:
+        whole = np.tile(motion.before.q, (len(s), 1))
+        whole[:, columns] = path.evaluate(s, 0)
+        jacobians = np.stack([context.robot.jacobian(q, frame)[:, columns] for q in whole])
+        twist = np.einsum("mij,mj->mi", jacobians, path.evaluate(s, 1))
+        rates = (np.linalg.norm(twist[:, :3], axis=1), np.linalg.norm(twist[:, 3:], axis=1))
+        return np.minimum(
+            *(limit / np.maximum(rate, 1e-9) for limit, rate in zip(limits, rates, strict=True))
+        )
+
+    return fastest
 
 
 def inverse_dynamics(context: Context, motion: Motion) -> InverseDynamics:

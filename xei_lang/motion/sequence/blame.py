@@ -13,6 +13,7 @@ from xei_lang.ir.goals import (
     SlideMove,
     ToolTarget,
 )
+from xei_lang.ir.verify_tool_paths import path_faults
 from xei_lang.motion.sequence.assemble import Untimed
 from xei_lang.motion.sequence.blame_way import blame_transit, mm, who
 from xei_lang.motion.sequence.census import Census, take_census
@@ -32,7 +33,18 @@ def refuse(context: Context, graph: MotionGoalGraph) -> Diagnostic | None:
         if problem is not None:
             return problem
         before = goal
-    return None
+    unsound = next(path_faults(graph), None)
+    return None if unsound is None else _refuse_path(*unsound)
+
+
+def _refuse_path(goal: MotionGoal, fault: str) -> Diagnostic:
+    return Diagnostic(
+        "XEI0806",
+        f"the way of {who(goal)} cannot be planned: {fault}",
+        goal.span,
+        "this step needs it",
+        notes=("the template of the skill decides this, in the development profile",),
+    )
 
 
 def _refuse_goal(context: Context, goal: MotionGoal, before: MotionGoal | None) -> Diagnostic | None:
@@ -43,18 +55,10 @@ def _refuse_goal(context: Context, goal: MotionGoal, before: MotionGoal | None) 
         return None
     if isinstance(action.target, JointTarget):
         return _out_of_range(context, goal, action.target.joints)
-    if action.path not in ("free", "linear"):
+    if action.path != "free" and not _follows(before, action):
         return Diagnostic(
             "XEI0806",
-            f"the path kind `{action.path}` is not planned yet",
-            goal.span,
-            "this step needs it",
-            notes=("this version plans `free` and `linear` paths of the tool",),
-        )
-    if action.path == "linear" and not _follows(before, action):
-        return Diagnostic(
-            "XEI0806",
-            "a linear move has nothing to start from",
+            f"a {action.path} move has nothing to start from",
             goal.span,
             "expected a free move of the same arm to the same object or place before it",
             notes=("the template of the skill decides this, in the development profile",),
@@ -71,7 +75,7 @@ def _follows(before: MotionGoal | None, move: MoveTo) -> bool:
     action = before.action
     if isinstance(action, MoveTo):
         return action.arm == move.arm and isinstance(action.target, ToolTarget)
-    return before.kind in ("open_gripper", "close_gripper", "attach", "detach", "wait", "set_do", "confirm")
+    return before.kind in ("open_gripper", "close_gripper", "attach", "detach", "wait", "set_do", "confirm", "instrument")
 
 
 def _out_of_range(
@@ -167,7 +171,7 @@ def _counted(census: Census) -> str:
         f"{count} touch `{name}`" if count > 1 else f"1 touches `{name}`" for name, count in census.bodies
     )
     if census.off_line:
-        parts.append(f"{census.off_line} leave a joint's range on the straight line")
+        parts.append(f"{census.off_line} leave a joint's range on the way")
     if not parts:
         return f"of {census.total} grasps none is left"
     return f"of {census.total} grasps {_listed(parts, 'and')}"

@@ -51,7 +51,7 @@ def take_census(context: Context, failure: Unplaced) -> Census:
     chain, poses, heights = rehearsal.chain, chain_poses(rehearsal), tried_heights(context, rehearsal)
     members = np.arange(len(chain.family.members), dtype=np.intp)
     solver = context.solvers[chain.arm]
-    rows = feasible(solver, poses, members, heights, THOROUGH.configurations_per_pose)
+    rows = feasible(solver, poses, members, heights, THOROUGH.configurations_per_pose, chain.legs)
     reached = set(rows.member.tolist())
     far = [
         member

@@ -6,19 +6,30 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
 
 from xei_lang.ir.goals import Attach, Detach, Grip, MotionGoal, MoveTo
 from xei_lang.ir.timed import Placement
 from xei_lang.motion.paths.joint_path import JointPath, line_path, spline_path
+from xei_lang.motion.paths.tool_path import ToolPath
 from xei_lang.motion.sequence.context import Context
 from xei_lang.motion.sequence.layers import Layer, carried
+from xei_lang.motion.sequence.legs import JUMP_RAD, tool_path
 from xei_lang.motion.sequence.motions import Motion
-from xei_lang.motion.sequence.poses import interpolate, pose_of
+from xei_lang.motion.sequence.poses import pose_of
 from xei_lang.motion.sequence.sections import Chain
 from xei_lang.motion.sequence.snapshot import Held, Snapshot
 
+Array = NDArray[np.float64]
+
 STEP_M = 0.01
 STEP_RAD = math.radians(4.0)
+DEVIATION_M = 0.0005
+DEVIATION_RAD = 0.002
+"""How far the tool may be from its way between two samples of it."""
 
 
 def grip(context: Context, goal: MotionGoal, action: Grip, before: Snapshot) -> Motion:
@@ -34,7 +45,7 @@ def grip(context: Context, goal: MotionGoal, action: Grip, before: Snapshot) -> 
 def carry_out(context: Context, layer: Layer, index: int, start: Snapshot) -> tuple[Motion, ...] | None:
     """The motions of the chain's goals after the first, from the first target's configuration in `start`.
 
-    None where a straight line leaves the arm's limits on its way.
+    None where the tool's way leads out of the arm's limits.
     """
     chain, now, target = layer.chain, start, 0
     told = choice_name(layer, index, start)
@@ -57,7 +68,7 @@ def _straight(
 ) -> Motion | None:
     chain, move = layer.chain, goal.action
     assert isinstance(move, MoveTo)
-    path = straight_path(context, layer, index, target)
+    path = tool_way(context, layer, index, target)
     if path is None:
         return None
     after = before.moved(context.lift(before.q, chain.arm, layer.q[index, target + 1]))
@@ -67,17 +78,57 @@ def _straight(
     )  # fmt: skip
 
 
-def straight_path(context: Context, layer: Layer, index: int, target: int) -> JointPath | None:
-    """The tool's straight line from one target to the next, at constant slide, swivel and branch."""
+def tool_way(context: Context, layer: Layer, index: int, target: int) -> JointPath | None:
+    """The tool's way from one target to the next, straight or as stated, at constant slide and branch.
+
+    The samples are drawn closer until the tool keeps within `DEVIATION_M` and `DEVIATION_RAD` of the way
+    between them too.
+    """
     chain, member = layer.chain, int(layer.member[index])
-    poses = interpolate(layer.poses[target, member], layer.poses[target + 1, member], STEP_M, STEP_RAD)
+    way = tool_path(chain.legs[target], layer.poses[target, member], layer.poses[target + 1, member])
+    for closer in (1.0, 0.5, 0.25):
+        path = _joint_path(context, layer, index, target, way.shares(closer * STEP_M, closer * STEP_RAD), way)
+        if path is None or isinstance(path, JointPath):
+            return path
+    return None
+
+
+def _joint_path(
+    context: Context, layer: Layer, index: int, target: int, share: Array, way: ToolPath
+) -> JointPath | Literal["coarse"] | None:
+    """The spline through the way's samples; None where the arm leaves its limits or its wrist flips."""
+    chain = layer.chain
+    swivel = layer.swivel_angle[index, target] * (1.0 - share) + layer.swivel_angle[index, target + 1] * share
     q, valid = carried(
-        context.solvers[chain.arm], poses[None], layer.q[index, :1, 0],
-        layer.swivel_angle[index : index + 1], layer.branch[index : index + 1],
+        context.solvers[chain.arm], way.poses(share)[None], layer.q[index, :1, 0],
+        swivel[None], layer.branch[index : index + 1],
     )  # fmt: skip
-    if not valid.all():
+    arm = q[0, :, 1:]
+    if not valid.all() or np.abs(np.diff(arm, axis=0)).max() > JUMP_RAD:
         return None
-    return spline_path(context.robot.arm(chain.arm).joint_names, q[0, :, 1:])
+    path = spline_path(context.robot.arm(chain.arm).joint_names, arm)
+    return path if _keeps_way(context, layer, index, path, share, way) else "coarse"
+
+
+def _keeps_way(
+    context: Context, layer: Layer, index: int, path: JointPath, share: Array, way: ToolPath
+) -> bool:
+    """Whether the tool is on its way half way between the samples as well."""
+    if len(path.breaks) != len(share):
+        return True
+    frame = context.robot.arm(layer.chain.arm).tool_frame
+    wanted = way.poses((share[:-1] + share[1:]) / 2)
+    q = np.zeros((len(wanted), 8))
+    q[:, 0] = layer.q[index, 0, 0]
+    q[:, 1:] = path.evaluate((path.breaks[:-1] + path.breaks[1:]) / 2, 0)
+    rest = np.zeros(context.robot.nq)
+    for T_wanted, row in zip(wanted, context.lift(rest, layer.chain.arm, q), strict=True):
+        T_found = context.robot.T_base_frame(row, frame)
+        if float(np.linalg.norm(T_found[:3, 3] - T_wanted[:3, 3])) > DEVIATION_M:
+            return False
+        if float(np.linalg.norm(T_found[:3, :3] - T_wanted[:3, :3])) > math.sqrt(2.0) * DEVIATION_RAD:
+            return False
+    return True
 
 
 def _hand_action(

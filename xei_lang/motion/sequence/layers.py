@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from xei_lang.motion.kinematics import Solver
 from xei_lang.motion.sequence.choose import Bools, Stage
 from xei_lang.motion.sequence.context import Context
+from xei_lang.motion.sequence.legs import Leg, follow
 from xei_lang.motion.sequence.poses import Ints, orbits, tool_poses
 from xei_lang.motion.sequence.sections import Chain
 
@@ -52,7 +53,8 @@ class Layer:
     """Candidates (n,) of a chain. `q` (n, targets, 8) is slide and arm at each tool target, within limits.
 
     `poses` (targets, members, 4, 4) are the tool poses; `member` is the one shown at this chain and `orbit`
-    names members that are turns of each other. `cost` is in seconds.
+    names members that are turns of each other. `swivel_angle` (n, targets) changes over stated paths only,
+    at a constant rate. `cost` is in seconds.
     """
 
     chain: Chain
@@ -101,7 +103,7 @@ def enumerate_layer(
         if len(hungry) == 0:
             break
         members = ranked[first : first + MEMBERS_PER_ROUND]
-        rows = feasible(solver, poses, members, heights[hungry], effort.configurations_per_pose)
+        rows = feasible(solver, poses, members, heights[hungry], effort.configurations_per_pose, chain.legs)
         rows = _without_contact(rows, touches)
         kept.append(rows)
         for index in hungry:
@@ -116,7 +118,7 @@ def _ranked(context: Context, chain: Chain, poses: Array, allowed: Bools) -> NDA
     shoulder = context.robot.T_base_frame(
         np.zeros(context.robot.nq), context.robot.arm(chain.arm).shoulder_frame
     )
-    key = poses[min(1, len(poses) - 1)]
+    key = poses[_key(chain.legs, len(poses))]
     away = key[:, :2, 3] - shoulder[:2, 3]
     away /= np.maximum(np.linalg.norm(away, axis=1, keepdims=True), 1e-9)
     facing = np.einsum("mi,mi->m", key[:, :2, 2], away)
@@ -127,7 +129,9 @@ def _ranked(context: Context, chain: Chain, poses: Array, allowed: Bools) -> NDA
 
 @dataclass(frozen=True, slots=True)
 class Rows:
-    """Configurations of a chain: `q` (n, targets, 8), and member, swivel angle and branch (n,) of each."""
+    """Configurations of a chain: `q` (n, targets, 8), swivel angles (n, targets), and member and branch (n,)
+    of each.
+    """
 
     q: Array
     member: Ints
@@ -144,7 +148,7 @@ class Rows:
 
 def _none(targets: int) -> Rows:
     empty = np.zeros(0, dtype=np.int64)
-    return Rows(np.zeros((0, targets, 8)), empty, np.zeros(0), empty)
+    return Rows(np.zeros((0, targets, 8)), empty, np.zeros((0, targets)), empty)
 
 
 def _joined(parts: list[Rows]) -> Rows:
@@ -156,11 +160,19 @@ def _joined(parts: list[Rows]) -> Rows:
     )
 
 
-def feasible(solver: Solver, poses: Array, members: NDArray[np.intp], heights: Array, most: int) -> Rows:
-    """At most `most` configurations of each member and height at the grasp itself, as far as the same swivel
-    and branch serve at all targets; `poses` (targets, members, 4, 4). Contacts are not looked at.
+def feasible(
+    solver: Solver,
+    poses: Array,
+    members: NDArray[np.intp],
+    heights: Array,
+    most: int,
+    legs: tuple[Leg | None, ...] = (),
+) -> Rows:
+    """At most `most` configurations of each member and height at the grasp itself, as far as the same branch
+    serves at all targets, and along the stated paths between them; `poses` (targets, members, 4, 4). The
+    swivel changes over stated paths only. Contacts are not looked at.
     """
-    key = min(1, len(poses) - 1)
+    key, targets = _key(legs, len(poses)), len(poses)
     pair_member = np.tile(members, len(heights)).astype(np.int64)
     pair_height = np.repeat(heights, len(members))
     solutions = solver.solve_many(poses[key, pair_member], pair_height)
@@ -169,8 +181,28 @@ def feasible(solver: Solver, poses: Array, members: NDArray[np.intp], heights: A
     swivel = np.concatenate([item.swivel_angle[pick] for item, pick in zip(solutions, picks, strict=True)])
     branch = np.concatenate([item.branch[pick] for item, pick in zip(solutions, picks, strict=True)])
     member, height = pair_member[pair], pair_height[pair]
-    q, valid = carried(solver, poses[:, member].swapaxes(0, 1), height, swivel, branch)
-    return Rows(q, member, swivel, branch).kept(np.flatnonzero(valid.all(axis=1)))
+    angles = np.repeat(swivel[:, None], targets, axis=1)
+    kept = np.arange(len(member))
+    for target, leg in enumerate(legs):
+        if leg is None:
+            angles[:, target + 1] = angles[:, target]
+            continue
+        ends, good = follow(
+            solver, leg, poses[target, member[kept]], height[kept], angles[kept, target], branch[kept]
+        )
+        angles[kept, target + 1] = ends
+        kept = kept[good]
+    member, height, branch, angles = member[kept], height[kept], branch[kept], angles[kept]
+    q, valid = carried(solver, poses[:, member].swapaxes(0, 1), height, angles, branch)
+    return Rows(q, member, angles, branch).kept(np.flatnonzero(valid.all(axis=1)))
+
+
+def _key(legs: tuple[Leg | None, ...], targets: int) -> int:
+    """The target at which configurations are looked for: the second, where a hand closes or opens, if a
+    straight move leads there.
+    """
+    stated = next((index for index, leg in enumerate(legs) if leg is not None), targets)
+    return min(1, stated, targets - 1)
 
 
 def _spread(count: int, most: int) -> NDArray[np.intp]:
@@ -179,8 +211,8 @@ def _spread(count: int, most: int) -> NDArray[np.intp]:
 
 
 def carried(solver: Solver, poses: Array, height: Array, swivel: Array, branch: Ints) -> tuple[Array, Bools]:
-    """Slide and arm (n, t, 8) at poses (n, t, 4, 4) with one height, swivel and branch (n,) a row; a mask (n,
-    t) of what is valid.
+    """Slide and arm (n, t, 8) at poses (n, t, 4, 4) with swivel angles (n, t), and one height and branch (n,)
+    a row; a mask (n, t) of what is valid.
     """
     rows, targets = poses.shape[:2]
     q = np.zeros((rows, targets, 8))
@@ -191,7 +223,7 @@ def carried(solver: Solver, poses: Array, height: Array, swivel: Array, branch: 
         arm, good = solver.at_many(
             poses[index].reshape(-1, 4, 4),
             np.repeat(height[index], targets),
-            np.repeat(swivel[index], targets),
+            swivel[index].reshape(-1),
             int(code),
         )
         q[index, :, 1:] = arm.reshape(len(index), targets, 7)

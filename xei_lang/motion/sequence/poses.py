@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -56,35 +54,3 @@ def same_grasp(family: Family, member: int, turned: bool) -> Bools:
     """
     names = orbits(family) if turned else np.arange(len(family.members))
     return names == names[member]
-
-
-def interpolate(T_start: Array, T_end: Array, step_m: float, step_rad: float) -> Array:
-    """Poses (m, 4, 4) on a straight line, turning at constant rate, both ends included."""
-    rotation = T_start[:3, :3].T @ T_end[:3, :3]
-    angle = math.acos(min(1.0, max(-1.0, (float(np.trace(rotation)) - 1.0) / 2.0)))
-    distance = float(np.linalg.norm(T_end[:3, 3] - T_start[:3, 3]))
-    count = max(2, math.ceil(max(distance / step_m, angle / step_rad)) + 1)
-    share = np.linspace(0.0, 1.0, count)
-    poses = np.tile(T_start, (count, 1, 1))
-    poses[:, :3, 3] += share[:, None] * (T_end[:3, 3] - T_start[:3, 3])
-    if angle > 1e-9:
-        poses[:, :3, :3] = T_start[:3, :3] @ _rotations(rotation, angle, share)
-    poses[-1] = T_end
-    return poses
-
-
-def _rotations(rotation: Array, angle: float, share: Array) -> Array:
-    """Rotations (m, 3, 3) about the axis of `rotation` by shares of its angle (Rodrigues)."""
-    skew = (
-        (rotation - rotation.T) / (2.0 * math.sin(angle)) if math.pi - angle > 1e-6 else _half_turn(rotation)
-    )
-    a = (share * angle)[:, None, None]
-    return np.eye(3) + np.sin(a) * skew + (1.0 - np.cos(a)) * (skew @ skew)
-
-
-def _half_turn(rotation: Array) -> Array:
-    """The cross-product matrix of the axis of a half turn."""
-    axis = np.sqrt(np.maximum(np.diag(rotation) + 1.0, 0.0) / 2.0)
-    largest = int(np.argmax(axis))
-    axis = (rotation[:, largest] + np.eye(3)[largest]) / (2.0 * axis[largest])
-    return np.array([[0.0, -axis[2], axis[1]], [axis[2], 0.0, -axis[0]], [-axis[1], axis[0], 0.0]])

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from xei_lang.ir.skill_plan import Side
 from xei_lang.motion.sequence.context import Context
 from xei_lang.motion.sequence.layers import THOROUGH, feasible, slide_heights
+from xei_lang.motion.sequence.legs import Leg
 from xei_lang.motion.sequence.poses import matrix, tool_poses
 from xei_lang.motion.sequence.rehearse import Rehearsal
 
@@ -58,12 +59,12 @@ def reach_help(context: Context, rehearsal: Rehearsal) -> tuple[str, ...]:
     chain, poses = rehearsal.chain, chain_poses(rehearsal)
     heights = slide_heights(context, float(rehearsal.before.q[context.robot.slide_index]), THOROUGH)
     found: list[str] = []
-    height = _lowest_feasible(context, chain.arm, poses, heights)
+    height = _lowest_feasible(context, chain.arm, poses, heights, chain.legs)
     if height is not None:
         found.append(f"with the slide at {height * 1000:.0f} mm it is in reach: move the slide there first")
     if chain.detach is not None:
         for side in sorted(context.solvers):
-            if side != chain.arm and _lowest_feasible(context, side, poses, heights) is not None:
+            if side != chain.arm and _lowest_feasible(context, side, poses, heights, chain.legs) is not None:
                 found.append(
                     f"the {side} arm reaches this place: set `{chain.detach.object}` down where both arms"
                     f" reach it, and pick it from there with `arm={side}`"
@@ -81,7 +82,8 @@ def _stations(context: Context, rehearsal: Rehearsal, poses: Array, heights: Arr
         T_new_old = matrix(station.T_world_base.inverse()) @ T_world_base
         if np.allclose(T_new_old, np.eye(4), atol=1e-6):
             continue
-        height = _lowest_feasible(context, rehearsal.chain.arm, T_new_old @ poses, heights)
+        legs = tuple(None if leg is None else leg.seen_from(T_new_old) for leg in rehearsal.chain.legs)
+        height = _lowest_feasible(context, rehearsal.chain.arm, T_new_old @ poses, heights, legs)
         if height is not None:
             found.append(
                 f"it is in reach from `{station.name}`: drive there first (`nav_to(station={station.name})`)"
@@ -89,9 +91,11 @@ def _stations(context: Context, rehearsal: Rehearsal, poses: Array, heights: Arr
     return found
 
 
-def _lowest_feasible(context: Context, side: Side, poses: Array, heights: Array) -> float | None:
+def _lowest_feasible(
+    context: Context, side: Side, poses: Array, heights: Array, legs: tuple[Leg | None, ...]
+) -> float | None:
     members = np.arange(poses.shape[1], dtype=np.intp)
     for height in sorted(heights.tolist()):
-        if len(feasible(context.solvers[side], poses, members, np.array([height]), 20)) > 0:
+        if len(feasible(context.solvers[side], poses, members, np.array([height]), 20, legs)) > 0:
             return height
     return None

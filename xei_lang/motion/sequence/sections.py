@@ -1,8 +1,9 @@
 """How a goal sequence falls into parts: groups of chains that are chosen together, and fixed goals between
 them.
 
-A *chain* is a free move of one arm to a family of tool poses with the linear moves and hand actions that
-follow it: it is carried out at one slide height, one swivel angle and one branch of the arm. A *group* is a
+A *chain* is a free move of one arm to a family of tool poses with the linear moves, stated
+paths and hand actions that follow it: it is carried out at one slide height and one branch of the arm, at one
+swivel angle but for stated paths. A *group* is a
 run of chains of one arm between anchors (named configurations, drives, perceptions, slide moves, a change of
 arm).
 """
@@ -23,14 +24,16 @@ from xei_lang.ir.goals import (
     ToolTarget,
 )
 from xei_lang.ir.skill_plan import Side
+from xei_lang.motion.sequence.legs import Leg, legs_of
 
 
 @dataclass(frozen=True, slots=True)
 class Chain:
-    """A free move to a family and what follows it at constant slide, swivel and branch.
+    """A free move to a family and what follows it at constant slide and branch.
 
     `goals[0]` is the free move; `targets` are the tool targets of the moves among `goals`, in order, and
-    `speed_fractions` the speeds of these moves.
+    `speed_fractions` the speeds of these moves; `legs` the stated paths between the targets, None where the
+    way is straight.
     """
 
     arm: Side
@@ -38,6 +41,7 @@ class Chain:
     goals: tuple[MotionGoal, ...]
     targets: tuple[ToolTarget, ...]
     speed_fractions: tuple[float, ...]
+    legs: tuple[Leg | None, ...]
 
     @property
     def head(self) -> MotionGoal:
@@ -124,9 +128,8 @@ def _chain(goals: tuple[MotionGoal, ...], families: dict[str, Family]) -> Chain:
     targets = tuple(move.target for move in moves if isinstance(move.target, ToolTarget))
     arm = moves[0].arm
     assert arm is not None
-    return Chain(
-        arm, families[targets[0].family], goals, targets, tuple(move.speed_fraction for move in moves)
-    )
+    fractions = tuple(move.speed_fraction for move in moves)
+    return Chain(arm, families[targets[0].family], goals, targets, fractions, legs_of(tuple(moves)))
 
 
 def _is_head(goal: MotionGoal) -> bool:
@@ -145,7 +148,7 @@ def _continues(goal: MotionGoal, head: MotionGoal) -> bool:
         return same and action.arm == move.arm and action.path != "free"
     if isinstance(action, (Grip, Attach, Detach)):
         return action.arm == move.arm
-    return goal.kind in ("wait", "set_do", "confirm")
+    return goal.kind in ("wait", "set_do", "confirm", "instrument")
 
 
 def _without_trailing_idle(goals: tuple[MotionGoal, ...]) -> tuple[MotionGoal, ...]:

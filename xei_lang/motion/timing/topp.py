@@ -25,6 +25,9 @@ _STILL = 1e-6
 InverseDynamics = Callable[[Array, Array, Array], Array]
 """Torques (m, n) of the joints (N m, N for the slide) for positions, velocities, accelerations (m, n)."""
 
+PathSpeed = Callable[[Array], Array]
+"""The largest path speed ds/dt (m,) that is allowed at path positions (m,), infinite where nothing is."""
+
 
 @dataclass(frozen=True, slots=True)
 class TimingFailure:
@@ -41,11 +44,13 @@ def parameterise(
     limits: tuple[JointLimit, ...],
     inverse_dynamics: InverseDynamics | None = None,
     speed_fraction: float = 1.0,
+    fastest: PathSpeed | None = None,
 ) -> Knots | TimingFailure:
     """The fastest rest-to-rest motion along the path within the limits of its joints.
 
     `limits` stand in the order of `path.joints`; `speed_fraction` in (0, 1] scales velocities by itself and
-    accelerations by its square, as slowing down time does.
+    accelerations by its square, as slowing down time does. `fastest` bounds the path speed as well, for a
+    tool that may not go faster.
     """
     if np.ptp(path.sampled(path.length / 8), axis=0).max() < _STILL:
         return still(path)
@@ -54,10 +59,10 @@ def parameterise(
         return stuck
     for intervals in _GRID_INTERVALS:
         grid = _grid(path, intervals)
-        speeds = _solve(path, grid, limits, inverse_dynamics, speed_fraction)
+        speeds = _solve(path, grid, limits, inverse_dynamics, speed_fraction, fastest)
         if speeds is not None:
             knots = _knots(path, grid, speeds)
-            if _keeps_limits(path, grid, speeds, limits, inverse_dynamics):
+            if _keeps_limits(path, grid, speeds, limits, inverse_dynamics, fastest):
                 return knots
     return TimingFailure("no speed along the path keeps the velocity, acceleration and torque limits")
 
@@ -90,13 +95,15 @@ def _solve(
     limits: tuple[JointLimit, ...],
     inverse_dynamics: InverseDynamics | None,
     speed_fraction: float,
+    fastest: PathSpeed | None,
 ) -> Array | None:
     from xei_lang.motion.timing.toppra_solver import solve_toppra
 
     velocity = np.array([limit.velocity for limit in limits]) * HEADROOM * speed_fraction
     acceleration = np.array([limit.acceleration for limit in limits]) * HEADROOM * speed_fraction**2
     torque = np.array([limit.torque for limit in limits]) * HEADROOM
-    return solve_toppra(path, grid, velocity, acceleration, torque, inverse_dynamics)
+    cap = None if fastest is None else HEADROOM * fastest(grid)
+    return solve_toppra(path, grid, velocity, acceleration, torque, inverse_dynamics, cap)
 
 
 def _static_overload(
@@ -121,6 +128,7 @@ def _keeps_limits(
     speeds: Array,
     limits: tuple[JointLimit, ...],
     inverse_dynamics: InverseDynamics | None,
+    fastest: PathSpeed | None,
 ) -> bool:
     """Whether the exact motion keeps all limits within each grid interval too, at five places of each.
 
@@ -136,6 +144,7 @@ def _keeps_limits(
     acceleration = path.evaluate(s, 2) * ds_squared + slope * dds
     bounds = np.array([[limit.velocity, limit.acceleration, limit.torque] for limit in limits]).T
     kept = bool(np.all(np.abs(velocity) <= bounds[0]) and np.all(np.abs(acceleration) <= bounds[1]))
+    kept = kept and (fastest is None or bool(np.all(ds_squared[:, 0] <= fastest(s) ** 2)))
     if not kept or inverse_dynamics is None:
         return kept
     return bool(np.all(np.abs(inverse_dynamics(path.evaluate(s, 0), velocity, acceleration)) <= bounds[2]))

@@ -18,6 +18,8 @@ from toppra.interpolator import AbstractGeometricPath  # pyright: ignore[reportM
 
 from xei_lang.motion.paths.joint_path import Array, JointPath
 
+_ANY_SPEED = 1e3
+
 logging.getLogger("toppra").setLevel(logging.CRITICAL)
 
 
@@ -65,12 +67,32 @@ class _Torque(LinearConstraint):
         )
 
 
+class _Cap(LinearConstraint):
+    """The path speed within bounds (N+1,) at the grid points."""
+
+    def __init__(self, fastest: Array) -> None:
+        super().__init__()
+        self.discretization_type = toppra.constraint.DiscretizationType.Interpolation
+        self._squares = np.minimum(fastest, _ANY_SPEED) ** 2
+
+    def compute_constraint_params(self, path: Any, gridpoints: Any, *_args: Any, **_kwargs: Any) -> Any:
+        bounds = np.stack([np.zeros_like(self._squares), self._squares], axis=1)
+        return None, None, None, None, None, None, bounds
+
+
 def solve_toppra(
-    path: JointPath, grid: Array, velocity: Array, acceleration: Array, torque: Array, inverse_dynamics: Any
+    path: JointPath,
+    grid: Array,
+    velocity: Array,
+    acceleration: Array,
+    torque: Array,
+    inverse_dynamics: Any,
+    fastest: Array | None = None,
 ) -> Array | None:
     """Path speeds ds/dt at the grid points, shape (N+1,), zero at both ends; None where no profile exists.
 
     Limits have shape (n,) and hold symmetrically: rad/s, rad/s2 and N m (m and N for prismatic joints).
+    `fastest` (N+1,) bounds the path speed at the grid points as well.
     """
     constraints: list[Any] = [
         toppra.constraint.JointVelocityConstraint(np.stack([-velocity, velocity], axis=1)),
@@ -78,6 +100,8 @@ def solve_toppra(
     ]
     if inverse_dynamics is not None:
         constraints.append(_Torque(inverse_dynamics, torque))
+    if fastest is not None:
+        constraints.append(_Cap(fastest))
     instance = toppra.algorithm.TOPPRA(
         constraints,
         _Path(path),

@@ -28,6 +28,8 @@ CODES: Mapping[FindingKind, str] = {
     "limits": "XEI0865",
     "tilt": "XEI0866",
     "start": "XEI0867",
+    "tool_path": "XEI0868",
+    "tool_speed": "XEI0869",
 }
 
 

@@ -49,6 +49,9 @@ class VerifyOptions:
     opening_tolerance_m: float = 1e-3
     slide_tolerance_m: float = 5e-4
     linear_tolerance_m: float = 2e-3
+    tool_path_m: float = 1e-3
+    tool_path_rad: float = 5e-3
+    tool_speed_ratio: float = 1.01
     held_position_m: float = 2e-3
     held_rotation_rad: float = 0.02
     placed_position_m: float = 2e-3

@@ -12,6 +12,7 @@ from xei_lang.ir.goals import Family, Grip, JointTarget, MotionGoal, MoveTo, Sli
 from xei_lang.ir.timed import TimedGoal
 from xei_lang.motion.verify.context import Context, pose_error
 from xei_lang.motion.verify.evaluate import Array, grid
+from xei_lang.motion.verify.tool_paths import check_tool_path
 
 
 def check_reached(context: Context) -> None:
@@ -46,6 +47,9 @@ def _check_move(context: Context, goal: TimedGoal, action: MoveTo) -> None:
     if goal.id in context.timeline.motions:
         if action.path == "linear":
             _check_line(context, goal, action.arm)
+        if action.along is not None or action.tool_speed_m_s or action.tool_turn_rad_s:
+            link = next(link for side, link in context.about.tool_links if side == action.arm)
+            check_tool_path(context, goal, action, link, *_rows(context, goal))
         if action.keep_upright and context.options.upright_tilt_rad is not None:
             _check_tilt(context, goal, context.options.upright_tilt_rad)
 

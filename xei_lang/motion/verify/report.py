@@ -22,6 +22,8 @@ FindingKind = Literal[
     "samples",
     "wrong_goal",
     "linear_path",
+    "tool_path",
+    "tool_speed",
     "tilt",
     "collision",
     "attachment",
