@@ -78,7 +78,9 @@ def _instrument(task: Task, line: TemplateStep) -> Draft:
     name, command = _literal_or_argument(task, line, "instrument"), str(line.field("command"))
     if not isinstance(name, ObjectRef):
         refuse_template(line, f"`{name}` is not an instrument", "expected an argument of type object")
-    return _draft(task, line, Instrument(name.name, command), (name.name,))
+    settings = tuple(setting.provenance() for setting in task.layers().call.values())
+    draft = _draft(task, line, Instrument(name.name, command), (name.name,))
+    return Draft(line.kind, draft.action, draft.resources, task.scene, settings, draft.contacts)
 
 
 def _literal_or_argument(task: Task, line: TemplateStep, field: str) -> object:

@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from xei_lang.diagnostics import Diagnostic, Diagnostics, has_errors
-from xei_lang.ir.goals import Confirm, MotionGoalGraph, Wait
-from xei_lang.ir.skill_plan import ObjectRef, Side, SkillPlan, Step
+from xei_lang.ir.goals import Action, Confirm, Instrument, MotionGoalGraph, Wait
+from xei_lang.ir.skill_plan import ObjectRef, Side, SkillPlan, Step, Value
 from xei_lang.ir.world import World
+from xei_lang.lower import instruments
 from xei_lang.lower.arms import Choice, choose, destinations
 from xei_lang.lower.assemble import Assembly
 from xei_lang.lower.draft import Draft, contacts
@@ -16,7 +17,6 @@ from xei_lang.lower.hand import SIDES
 from xei_lang.lower.refusal import Refusal, refuse
 from xei_lang.lower.scene_origin import STEP_ID, arrival, scene_origin
 from xei_lang.lower.task import Task
-from xei_lang.lower.templates import expand
 from xei_lang.lower.walk import Scene
 from xei_lang.profiles.model import Profile, SceneOrigin, SkillSpec
 from xei_lang.quantity import Quantity
@@ -74,19 +74,42 @@ def _lower_step(
 ) -> Scene:
     step = plan.steps[index]
     after = step.after or (STEP_ID,)
-    spec = profile.bank.skill(step.skill) if step.kind == "skill" else None
+    if step.kind in instruments.ENDS:
+        return _lower_end(assembly, plan, index, scene, profile)
+    spec = profile.bank.skill(step.skill) if step.kind in ("skill", "start") else None
     if spec is None:
         drafts = (_statement(step, scene),)
         assembly.add(step.step_id, step.span, after=after, before=scene, drafts=drafts)
         return scene
     task = _task(plan, index, spec, scene, profile, arm)
-    drafts = expand(task)
+    drafts = instruments.start(task) if step.kind == "start" else instruments.whole(task)
     if task.scene.epoch.index > scene.epoch.index:
         drafts += _arrive(task)
     assembly.families.extend(task.families)
     longest_s = step.duration_s[1] or spec.duration_s[1]
     assembly.add(step.step_id, step.span, after=after, before=scene, drafts=drafts, max_duration_s=longest_s)
     return task.scene
+
+
+def _lower_end(assembly: Assembly, plan: SkillPlan, index: int, scene: Scene, profile: Profile) -> Scene:
+    """A step that ends, pauses or resumes the work of an instrument; no goal where the start has none."""
+    step, later = plan.steps[index], scene
+    drafts: tuple[Draft, ...] = ()
+    name = step.arg("step")
+    begun = next((k for k in range(index - 1, -1, -1) if plan.steps[k].step_id == name), index)
+    run = next((run for goal in reversed(assembly.goals) if (run := _run(goal.action, name))), None)
+    spec = profile.bank.skill(plan.steps[begun].skill)
+    if spec is not None and run is not None:
+        task = _task(plan, begun, spec, scene, profile, None)
+        drafts, later = instruments.end(step.kind, task, run), task.scene
+    assembly.add(step.step_id, step.span, after=step.after or (STEP_ID,), before=scene, drafts=drafts)
+    return later
+
+
+def _run(action: Action, name: Value | None) -> Instrument | None:
+    if isinstance(action, Instrument) and action.event == "start" and action.run == name:
+        return action
+    return None
 
 
 def _arrive(task: Task) -> tuple[Draft, ...]:

@@ -32,14 +32,15 @@ BUILDERS: Mapping[GoalKind, Builder] = MappingProxyType(
 )
 
 
-def expand(task: Task) -> tuple[Draft, ...]:
-    """The drafts of a step's template, in order; `task.scene` is left as the step leaves it.
+def expand(task: Task, lines: tuple[TemplateStep, ...] | None = None) -> tuple[Draft, ...]:
+    """The drafts of a step's template, or of some of its lines, in order; `task.scene` is left as the step
+    leaves it.
 
     Raises Refusal: XEI0701 at the profile's line for a template that names what does not exist, else the
     diagnostic of the operation that cannot be planned.
     """
     drafts: list[Draft] = []
-    for line in task.spec.template:
+    for line in task.spec.template if lines is None else lines:
         builder = _builder(line)
         built = builder.build(task, line)
         drafts.extend(built if isinstance(built, tuple) else (built,))

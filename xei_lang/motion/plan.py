@@ -29,6 +29,7 @@ from xei_lang.motion.sequence.fixed import plan_fixed
 from xei_lang.motion.sequence.group import plan_group
 from xei_lang.motion.sequence.margins import margins
 from xei_lang.motion.sequence.motions import Motion
+from xei_lang.motion.sequence.runs import awaited
 from xei_lang.motion.sequence.sections import Group, Part, split
 from xei_lang.motion.sequence.snapshot import Snapshot, first_snapshot
 from xei_lang.profiles.model import Profile
@@ -91,8 +92,10 @@ def attempt(
         motions = _plan_part(context, part, parts[index + 1 :], now)
         if isinstance(motions, Diagnostic):
             return _refused(graph, motions, len(timed))
-        for motion in motions:
-            goal = time_motion(context, motion, timed[-1].end_s if timed else 0.0)
+        for planned in motions:
+            start_s = timed[-1].end_s if timed else 0.0
+            motion = awaited(planned, loads, timed, start_s)
+            goal = time_motion(context, motion, start_s)
             if isinstance(goal, Untimed):
                 return _refused(graph, blame_timing(context, goal), len(timed))
             timed.append(goal)

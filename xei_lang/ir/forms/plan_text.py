@@ -62,7 +62,8 @@ def _step(step: Step, known: tuple[Fact, ...]) -> str:
     arguments = ", ".join(_argument(item) for item in step.args)
     after = f" after {', '.join(step.after)}" if step.after else ""
     condition = f" when {' and '.join(item.text for item in step.when)}" if step.when else ""
-    lines = [f"{step.step_id}: {step.skill or step.kind}({arguments}){after}{condition}"]
+    start = "start " if step.kind == "start" else ""
+    lines = [f"{step.step_id}: {start}{step.skill or step.kind}({arguments}){after}{condition}"]
     by = f"by {step.owner}, " if step.owner else ""
     lines.append(f"  {by}{_duration(step.duration_s)}; uses {', '.join(step.resources) or 'nothing'}")
     lines.extend(f"  known: {_fact(fact)}" for fact in _without(step.state_before, known))

@@ -19,6 +19,7 @@ from xei_lang.motion.verify.options import RobotDescription, VerifyOptions
 from xei_lang.motion.verify.reach import check_reached
 from xei_lang.motion.verify.report import Checked, Finding, VerificationReport
 from xei_lang.motion.verify.robot import Robot
+from xei_lang.motion.verify.runs import check_runs
 from xei_lang.motion.verify.samples import check_samples
 from xei_lang.motion.verify.schedule import check_goals, check_schedule
 from xei_lang.motion.verify.timeline import Timeline, build_timeline
@@ -55,6 +56,7 @@ def verify_timed(
     )
     for check in (check_goals, check_schedule, check_limits, check_jumps, check_samples, check_reached):
         check(context)
+    check_runs(context)
     check_hands(context)
     check_torque(context)
     distances = check_clearance(context)

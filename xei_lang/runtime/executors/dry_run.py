@@ -9,9 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from itertools import pairwise
 
-from xei_lang.ir.goals import Attach, Detach, GoalKind, MotionGoal, SetDo
+from xei_lang.ir.goals import Attach, Detach, GoalKind, Instrument, MotionGoal, SetDo
 from xei_lang.ir.timed import Samples, TimedGoal
 from xei_lang.ir.trace import RuntimeFeedback
+from xei_lang.runtime.executors.instruments import Clocks
 from xei_lang.runtime.state import RunState
 
 START_TOLERANCE = 1e-4
@@ -21,7 +22,7 @@ TRACKING_TOLERANCE = 5e-3
 
 KINDS: tuple[GoalKind, ...] = (
     "move_to", "open_gripper", "close_gripper", "set_do", "slide_move", "nav_to_pose", "wait", "perceive",
-    "confirm", "attach", "detach",
+    "confirm", "attach", "detach", "instrument",
 )  # fmt: skip
 
 
@@ -32,6 +33,7 @@ class DryRun:
     joints: dict[str, float]
     holding: dict[str, str] = field(default_factory=dict[str, str])
     outputs: dict[str, bool] = field(default_factory=dict[str, bool])
+    clocks: Clocks = field(default_factory=Clocks)
     stopped: bool = False
     name: str = "dry-run"
     virtual: bool = True
@@ -46,7 +48,7 @@ class DryRun:
         """Walk the trajectory, then do what the goal says to hands and outputs."""
         if self.stopped:
             return _failed(goal, "the executor was stopped")
-        problem = self._walk(timed) or self._act(goal)
+        problem = self._walk(timed) or self._act(goal, timed)
         return _failed(goal, problem) if problem else RuntimeFeedback(goal.id, "succeeded")
 
     def cancel(self, goal_id: str) -> RuntimeFeedback:
@@ -73,7 +75,7 @@ class DryRun:
             self.joints.update(zip(timed.joints, timed.samples.positions[-1], strict=True))
         return problem
 
-    def _act(self, goal: MotionGoal) -> str:
+    def _act(self, goal: MotionGoal, timed: TimedGoal) -> str:
         match goal.action:
             case Attach(object=name, arm=arm):
                 if arm in self.holding or name in self.holding.values():
@@ -86,6 +88,8 @@ class DryRun:
                 if not output:
                     return "an output without a name cannot be set"
                 self.outputs[output] = value
+            case Instrument() as action:
+                return self.clocks.act(action, timed)
             case _:
                 pass
         return ""
