@@ -8,7 +8,7 @@ from tests.syntax.corpus import in_protocol
 from tests.syntax.mistakes import measure
 from xei_lang.diagnostics import Diagnostics, Source
 from xei_lang.syntax import Parser, ast
-from xei_lang.syntax.recovery import MAX_FAULTS
+from xei_lang.syntax.nesting import MAX_FAULTS
 
 PARSER = Parser()
 

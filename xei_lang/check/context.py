@@ -55,9 +55,11 @@ def make_context(module: Module, source: Source, profile: Profile, options: Chec
     reporter = Reporter(options.sources)
     places = Places(reporter)
     types = Types(registry, places, reporter)
-    evaluator = Evaluator(registry, places, reporter, Budget(options.max_steps, reporter))
+    budget = Budget(reporter)
+    evaluator = Evaluator(registry, places, reporter, budget)
     usage = Usage()
     units = load_units(module, source, options.files, reporter, usage, options.parse)
+    budget.allow(sum(len(unit.source.text) for unit in units.values()))
     return Context(
         units,
         options,

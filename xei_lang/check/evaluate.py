@@ -16,7 +16,7 @@ from xei_lang.check.places import Places
 from xei_lang.check.registry import Registry
 from xei_lang.check.report import Reporter
 from xei_lang.check.scope import Scope
-from xei_lang.check.values import ListValue, Val, number
+from xei_lang.check.values import POISON, ListValue, Val, number
 from xei_lang.syntax.ast import (
     Attr,
     Binary,
@@ -68,6 +68,8 @@ class Evaluator:
         self, node: Expression | Range, scope: Scope, words: tuple[str, ...] = ()
     ) -> Val:
         """The value of an expression; `words` are the words of an enumeration that may stand here bare."""
+        if not self.budget.spend(1, node.span):
+            return POISON
         match node:
             case Name():
                 return self._names.value(node, scope, words)

@@ -72,11 +72,19 @@ class Expander:
         self._names: dict[Span, Mapping[Span, str]] = {}
         self._resources: dict[tuple[object, ...], tuple[str, ...]] = {}
 
+    @property
+    def stopped(self) -> bool:
+        """Whether a bound was reached, which then has been reported; what follows is not looked at."""
+        context = self.context
+        return self.plan.full or context.evaluator.budget.is_spent or context.reporter.is_full
+
     def members(self, members: Iterable[Member], scope: Scope, where: Where) -> None:
-        """Expand declarations and statements in their order; stops where the plan is full."""
+        """Expand declarations and statements in their order; stops where a bound is reached."""
+        budget = self.context.evaluator.budget
         for member in members:
-            if self.plan.full:
+            if self.stopped:
                 return
+            budget.reached(len(self.plan.steps))
             self._member(member, scope, where)
 
     def block(self, block: Block, scope: Scope, where: Where) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from contextlib import nullcontext
 from typing import TYPE_CHECKING
 
+from xei_lang.check.budget import TURN
 from xei_lang.check.functions import not_yet
 from xei_lang.check.overlap import Overlap
 from xei_lang.check.plan_builder import Where
@@ -69,7 +70,7 @@ def _turns(
     expander.loops.append(loop.span)
     start = len(plan.steps)
     for number, item in enumerate(items, start=1):
-        if not expander.context.evaluator.budget.spend(1, loop.span):
+        if not expander.context.evaluator.budget.spend(TURN, loop.span):
             plan.full, plan.overflow = True, plan.overflow or loop.span
             break
         with overlap.branch() if overlap else nullcontext():

@@ -69,7 +69,8 @@ def check_module(
             alone = Expander(context, PlanBuilder(options.max_steps), initial_state(context.registry))
             check_alone(alone, procedure)
             expander.called |= alone.called
-    context.usage.warn(context.reporter, source.file)
+    if not expander.stopped:
+        context.usage.warn(context.reporter, source.file)
     diagnostics = allowed(module, source, context.reporter.diagnostics)
     return (None if has_errors(diagnostics) else plan), diagnostics
 

@@ -86,7 +86,7 @@ class PlanBuilder:
     overflow: Span | None = None
     overlaps: list[tuple[int, int]] = field(default_factory=list[tuple[int, int]])
     skipped: dict[Span, list[str]] = field(default_factory=dict[Span, list[str]])
-    _ids: set[str] = field(default_factory=set[str])
+    _ids: dict[str, int] = field(default_factory=dict[str, int])
     _noted: _Places = field(default_factory=set[tuple[Span, tuple[Call, ...]]])
 
     def add(
@@ -165,10 +165,11 @@ class PlanBuilder:
 
     def _unused(self, path: str) -> str:
         """The path itself; only the branches of a choice that is still open can share one."""
-        found, number = path, 2
+        found = path
         while found in self._ids:
-            found, number = f"{path}~{number}", number + 1
-        self._ids.add(found)
+            self._ids[path] += 1
+            found = f"{path}~{self._ids[path]}"
+        self._ids[found] = 1
         return found
 
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from xei_lang.check.arguments import Signature, match_arguments
+from xei_lang.check.budget import CALL
 from xei_lang.check.declared import declared_expectation
 from xei_lang.check.names import ANY_WORD
 from xei_lang.check.paths import check_labels, step_names
@@ -29,6 +30,8 @@ def inline(
     name = procedure.name.id
     expander.called.add(procedure)
     if _too_deep(expander, call, procedure, where):
+        return
+    if not expander.context.evaluator.budget.spend(CALL, call.span):
         return
     given = match_arguments(call, _signature(procedure), expander.context.reporter)
     if given is None:

@@ -8,8 +8,13 @@ from collections.abc import Generator
 from contextlib import contextmanager
 
 from xei_lang.diagnostics import Diagnostic, Diagnostics, Edit, Fix, Label, Sources, Span
+from xei_lang.diagnostics.catalogue import CATALOGUE
 from xei_lang.diagnostics.diagnostic import Applicability
 from xei_lang.ir.skill_plan import Call
+
+
+MAX_ERRORS = 200
+"""After so many nobody reads on, and looking for what was meant by each wrong name takes long."""
 
 
 class Reporter:
@@ -21,7 +26,13 @@ class Reporter:
     def __init__(self, sources: Sources) -> None:
         self._sources = sources
         self._found: dict[tuple[Span, str, str], Diagnostic] = {}
+        self._errors = 0
         self.calls: tuple[Call, ...] = ()
+
+    @property
+    def is_full(self) -> bool:
+        """Whether there are more errors than are shown, which then has been reported."""
+        return self._errors > MAX_ERRORS
 
     @property
     def diagnostics(self) -> Diagnostics:
@@ -47,16 +58,33 @@ class Reporter:
         command line.
         """
         key = (span, code, about)
-        if key not in self._found:
+        if key not in self._found and self._has_room(code, span):
             chain = tuple(
                 Label(call.span, f"in this call of `{call.procedure}`") for call in reversed(self.calls)
             )
             self._found[key] = Diagnostic(code, message, span, label, labels + chain, notes, help, fix)
 
+    def _has_room(self, code: str, span: Span) -> bool:
+        """Whether one more may be kept; the first error for which there is no room is told of."""
+        if CATALOGUE[code].severity != "error":
+            return True
+        self._errors += 1
+        if self._errors == MAX_ERRORS + 1:
+            self._found[span, "XEI0109", ""] = Diagnostic(
+                "XEI0109",
+                f"only the first {MAX_ERRORS} errors are shown",
+                span,
+                "what follows was not checked",
+                help=("mend these first",),
+            )
+        return self._errors <= MAX_ERRORS
+
     def keep(self, diagnostic: Diagnostic) -> None:
         """Keep a diagnostic that another room made of a file, which has a span."""
         assert diagnostic.span is not None
-        self._found.setdefault((diagnostic.span, diagnostic.code, ""), diagnostic)
+        key = (diagnostic.span, diagnostic.code, "")
+        if key not in self._found and self._has_room(diagnostic.code, diagnostic.span):
+            self._found[key] = diagnostic
 
     def rule(self, span: Span) -> str:
         """The note that says which line of a profile makes the rule; only the file where its text is not at

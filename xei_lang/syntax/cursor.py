@@ -51,6 +51,8 @@ class Cursor:
         self.opened: Opened = None
         self.damaged: list[Span] = []
         self.resumed_at = -1
+        self._start = (0, 0, -1)
+        """For so many open braces: where the statement began, and how many tokens were taken then."""
 
     def take(self, token: Token, stack: Stack, kind: str) -> None:
         """Take a token that `Machine.step` lets follow."""
@@ -68,6 +70,8 @@ class Cursor:
         if length < len(self.done):
             _, self.stack, self.opened = self.done[length]
             del self.done[length:]
+            most, start, until = self._start
+            self._start = (most, start, min(until, length) if start < length else -1)
 
     def put_in(self, tokens: tuple[Token, ...]) -> bool:
         """Take tokens that do not stand in the text; False where one cannot follow."""
@@ -89,13 +93,18 @@ class Cursor:
     def statement_start(self) -> int:
         """How many tokens stand before the statement or definition that was begun."""
         most = braces(self.opened)
-        for length in range(len(self.done), -1, -1):
+        known, start, until = self._start
+        if known != most or until > len(self.done):
+            until, start = -1, 0
+        for length in range(len(self.done), until, -1):
             stack = self.below(length)
             if braces(self.opened_at(length)) <= most and any(
                 self.machine.shift(stack, kind) is not None for kind in (STATEMENT, ITEM)
             ):
-                return length
-        return 0
+                start = length
+                break
+        self._start = (most, start, len(self.done))
+        return start
 
     def hurt(self, begin: int, end: int) -> None:
         """Note as damaged the statement around, as far as it reaches over the given part."""

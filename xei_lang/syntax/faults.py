@@ -109,12 +109,12 @@ def explain_brace(source: Source, fault: BraceFault, tokens: Sequence[Token]) ->
     return Diagnostic("XEI0104", message, place, label, labels, fix=Fix("unsafe", (edit,)))
 
 
-def too_many(source: Source, token: Token, count: int) -> Diagnostic:
+def too_many(source: Source, start: int, end: int, count: int) -> Diagnostic:
     """The last word on a file that has more mistakes than anyone reads."""
     return Diagnostic(
         "XEI0109",
         f"only the first {count} syntax errors of this file are shown",
-        Span(source.file, token.start, token.end),
+        Span(source.file, start, end),
         "what follows was not read",
         help=("mend these first",),
     )

@@ -1,4 +1,6 @@
-"""A bound on how deep a tree may be, so that what walks it later may do so recursively."""
+"""Bounds on a text: how deep its tree may be, so that what walks it later may do so recursively, and how many
+mistakes of it are told.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +10,9 @@ from xei_lang.diagnostics import Span
 from xei_lang.syntax.ast import children
 
 MAX_NESTING = 150
+MAX_FAULTS = 100
+"""After so many the rest of the file is left unread: they have a cause of their own, such as a wrong file."""
+
 _LEVELS_PER_CHARACTER = 3
 """Upper bound: `do{}` is four characters for a Step, a Do and a Block; `f(x)` four for four levels."""
 

@@ -11,7 +11,7 @@ from xei_lang.syntax import ast
 from xei_lang.syntax.builder import Builder
 from xei_lang.syntax.driver import Driver, WrongTokenError
 from xei_lang.syntax.lexer import Token
-from xei_lang.syntax.nesting import MAX_NESTING, too_deep
+from xei_lang.syntax.nesting import MAX_FAULTS, MAX_NESTING, too_deep
 from xei_lang.syntax.tables import load_tables
 
 _MINIMAL = 'protocol name {\n  profile "openarm_bench"\n  wait 1 s\n}'
@@ -63,7 +63,7 @@ class Parser:
         deep = too_deep(node)
         if deep is not None:
             return None, (*builder.diagnostics, _too_deep(deep))
-        return node, tuple(builder.diagnostics)
+        return node, _first(builder.diagnostics, source)
 
     def _rescue(self, source: Source, start: str) -> tuple[Any, Diagnostics]:
         from xei_lang.syntax.recovery import recover
@@ -78,6 +78,17 @@ class Parser:
             module = replace(module, damaged=recovered.damaged)
         trusted = [diagnostic for diagnostic in more if not _is_in(diagnostic.span, recovered.damaged)]
         return module, (*said, *trusted) if module is not None else said
+
+
+def _first(found: list[Diagnostic], source: Source) -> Diagnostics:
+    """As many of what is wrong inside of tokens as anyone reads."""
+    if len(found) <= MAX_FAULTS:
+        return tuple(found)
+    from xei_lang.syntax.faults import too_many
+
+    span = found[MAX_FAULTS].span
+    assert span is not None
+    return (*found[:MAX_FAULTS], too_many(source, span.start, span.end, MAX_FAULTS))
 
 
 def _is_in(span: Span | None, damaged: tuple[Span, ...]) -> bool:

@@ -26,12 +26,10 @@ from xei_lang.syntax.layout import (
 )
 from xei_lang.syntax.leaving_out import leave_out, leave_out_argument
 from xei_lang.syntax.lexer import COMMENT, Scanner, Token
+from xei_lang.syntax.nesting import MAX_FAULTS
 from xei_lang.syntax.repairs import LOOK, Repair, find_repair
 from xei_lang.syntax.stack import Machine
 from xei_lang.syntax.tables import END
-
-MAX_FAULTS = 100
-"""After so many the rest of the file is left unread: they have a cause of their own, such as a wrong file."""
 
 _MAX_MENDS = 1_000
 _BEFORE = 10
@@ -76,7 +74,7 @@ class _Recovery:
                     return self._recovered(whole=True)
                 self._cursor.at += 1
             elif len(self._found) >= MAX_FAULTS or self._mends >= _MAX_MENDS:
-                self._found.append(too_many(self._source, token, len(self._found)))
+                self._found.append(too_many(self._source, token.start, token.end, len(self._found)))
                 return self._recovered(whole=False)
             elif not self._mend():
                 return self._recovered(whole=False)
