@@ -11,9 +11,9 @@ from xei_lang.check.budget import Budget
 from xei_lang.check.rearrange import chunks, pairs, products, shuffled
 from xei_lang.check.report import Reporter, guess, meant
 from xei_lang.check.values import POISON, Interval, ListValue, Val, a, kind
-from xei_lang.diagnostics import Span, did_you_mean
+from xei_lang.diagnostics import Edit, Fix, Span, did_you_mean
 from xei_lang.quantity import DimensionError, Quantity
-from xei_lang.syntax.ast import CallExpr, Name
+from xei_lang.syntax.ast import CallExpr, Name, Number
 
 STATE_VARIABLES = (
     "volume",
@@ -69,13 +69,13 @@ class Functions:
             return self._wrong(f"`{function.id}` takes no argument `{named.name.id}`", named.span)
         return POISON if POISON in args else self._table[function.id](node, args)
 
-    def unknown(self, function: Name, skills: tuple[str, ...]) -> Val:
+    def unknown(self, function: Name, node: CallExpr, skills: tuple[str, ...]) -> Val:
         """Report a call of something that is no function of expressions."""
         name = function.id
         if name in STATE_VARIABLES:
-            not_yet(self._reporter, f"asking for a state, as `{name}(...)` does,", function.span)
+            self._wrong(f"`{name}` cannot be asked for here", function.span, "there is no plan to follow")
         elif name == "range":
-            self._wrong("`range` is written as `1 .. 8` here", function.span, "both ends are included")
+            self._range(function, node)
         elif name in skills:
             self._wrong(
                 f"`{name}` is a skill and has no value", function.span, "a skill is a statement of its own"
@@ -91,6 +91,21 @@ class Functions:
                 fix=guess(function.span, did_you_mean(name, known)),
             )
         return POISON
+
+    def _range(self, function: Name, node: CallExpr) -> None:
+        ends = [arg.value.value for arg in node.args if isinstance(arg.value, Number)]
+        whole = [end for end in ends if isinstance(end, int)]
+        range_ = f"1 .. {whole[0]}" if len(whole) == 1 else "1 .. 8"
+        if len(whole) == 2:
+            range_ = f"{whole[0]} .. {whole[1] - 1}"
+        self._reporter.report(
+            "XEI0319",
+            "`range` is written as `1 .. 8` here",
+            function.span,
+            "both ends are included",
+            help=(f"write `for i in {range_}`, or as a list `[i for i in {range_}]`",),
+            fix=Fix("display", (Edit(node.span, range_),)),
+        )
 
     def _zip(self, node: CallExpr, args: tuple[Val, ...]) -> Val:
         lists = [arg for arg in args if isinstance(arg, ListValue)]

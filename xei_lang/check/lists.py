@@ -11,7 +11,8 @@ from xei_lang.check import arithmetic
 from xei_lang.check.budget import Budget
 from xei_lang.check.report import Reporter
 from xei_lang.check.scope import Scope
-from xei_lang.check.values import POISON, ListValue, Numeric, Val, kind, nominal, show
+from xei_lang.check.value_habits import NO_MEND, slot_of
+from xei_lang.check.values import POISON, ListValue, Numeric, ObjectValue, Val, kind, nominal, show
 from xei_lang.diagnostics import Span
 from xei_lang.quantity import DimensionError, Quantity
 from xei_lang.syntax.ast import Comprehension, Expression, Index, Name, Range
@@ -108,11 +109,23 @@ class Lists:
         if value is POISON or which is POISON:
             return POISON
         if not isinstance(value, ListValue):
-            return self._wrong("XEI0314", f"`{show(value)}` is {kind(value)}, not a list", node.value.span)
+            return self._no_list(value, which, node)
         if isinstance(which, ListValue):
             return self._part(value, which, node)
         position = self._position(nominal(which), value, node)
         return POISON if position is None else value.items[position]
+
+    def _no_list(self, value: Val, which: Val, node: Index) -> Val:
+        help, fix = NO_MEND
+        if isinstance(value, ObjectValue):
+            written = node.value.id if isinstance(node.value, Name) else value.name
+            if isinstance(which, str):
+                help, fix = slot_of(value, which, written, node.span)
+            elif value.registered is not None and value.registered.slots is not None:
+                help = (f"its places are lists: `{written}.slots[1]`, `{written}.row(...)[1]`",)
+        message = f"`{show(value)}` is {kind(value)}, not a list"
+        self._reporter.report("XEI0314", message, node.value.span, "expected a list", help=help, fix=fix)
+        return POISON
 
     def _part(self, value: ListValue, which: ListValue, node: Index) -> Val:
         chosen: list[Val] = []

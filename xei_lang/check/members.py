@@ -10,7 +10,8 @@ from xei_lang.check.places import METHODS, PROPERTIES, Places
 from xei_lang.check.registry import Registry
 from xei_lang.check.report import Reporter, guess, listed, meant
 from xei_lang.check.scope import Scope
-from xei_lang.check.values import POISON, ObjectValue, RecordValue, TableValue, Val, kind, show
+from xei_lang.check.value_habits import NO_MEND, slot_of, state_of, unquoted_key
+from xei_lang.check.values import POISON, ListValue, ObjectValue, RecordValue, TableValue, Val, kind, show
 from xei_lang.diagnostics import did_you_mean
 from xei_lang.syntax.ast import Attr, CallExpr, Name
 
@@ -49,6 +50,7 @@ class Members:
         if isinstance(owner, ObjectValue) and name in PROPERTIES:
             return self._places.property(owner, name, node.span)
         known = (*METHODS, *PROPERTIES)
+        fix = guess(node.name.span, did_you_mean(name, known))
         if isinstance(owner, ObjectValue) and name in METHODS:
             shown, help = (
                 f"`{name}` of `{show(owner)}` needs an argument",
@@ -56,12 +58,20 @@ class Members:
             )
         elif isinstance(owner, ObjectValue):
             shown = f"`{show(owner)}` has no `{name}`"
-            help = meant(did_you_mean(name, known)) or (
-                f"an object has {', '.join(f'`{word}`' for word in known)}",
+            written = node.value.id if isinstance(node.value, Name) else show(owner)
+            help, mend = state_of(owner, name, written, node.span)
+            if mend is None:
+                help, mend = slot_of(owner, name, written, node.span)
+            fix = mend or fix
+            help = (
+                help
+                or meant(did_you_mean(name, known))
+                or (f"an object has {', '.join(f'`{word}`' for word in known)}",)
             )
         else:
-            shown, help, known = f"{kind(owner)} has no `{name}`", (), ()
-        fix = guess(node.name.span, did_you_mean(name, known))
+            counted = isinstance(owner, ListValue) and name in ("length", "size", "count", "len")
+            shown, fix = f"{kind(owner)} has no `{name}`", None
+            help = ("`len(list)` counts its members",) if counted else ()
         self._reporter.report("XEI0319", shown, node.name.span, "no such attribute", help=help, fix=fix)
         return POISON
 
@@ -80,7 +90,7 @@ class Members:
             if states is not None and function.id in self._variables:
                 subject = self._evaluate(node.args[0].value, scope) if node.args else POISON
                 return states.value(function, node, subject)
-            return self._functions.unknown(function, tuple(self._registry.skills))
+            return self._functions.unknown(function, node, tuple(self._registry.skills))
         self._reporter.report("XEI0319", "this cannot be called", function.span, "not a function")
         return POISON
 
@@ -101,6 +111,8 @@ class Members:
 
     def _method(self, node: CallExpr, function: Attr, scope: Scope) -> Val:
         owner = self._evaluate(function.value, scope)
+        if isinstance(owner, ObjectValue) and self._is_unquoted(owner, function, node, scope):
+            return POISON
         args = [self._evaluate(arg.value, scope) for arg in node.args]
         if owner is POISON:
             return POISON
@@ -115,3 +127,17 @@ class Members:
             message, label = f"{kind(owner)} has no `{function.name.id}`", "only an object has places"
         self._reporter.report("XEI0319", message, node.span, label)
         return POISON
+
+    def _is_unquoted(self, owner: ObjectValue, function: Attr, node: CallExpr, scope: Scope) -> bool:
+        """Whether it is `rack.slot(A1)`, a name where a text belongs, which is reported."""
+        key = node.args[0].value if len(node.args) == 1 else None
+        if not isinstance(key, Name) or scope.find(key.id) is not None:
+            return False
+        known = self._places.keys(owner, function.name.id)
+        help, fix = unquoted_key(key.id, function.name.id, known, key.span)
+        if (help, fix) == NO_MEND:
+            return False
+        self._reporter.report(
+            "XEI0202", f"`{key.id}` is not known here", key.span, "expected a text", help=help, fix=fix
+        )
+        return True

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from xei_lang.check.registry import Registry
-from xei_lang.check.report import Reporter, guess, meant, replace
+from xei_lang.check.report import Reporter, guess, meant
 from xei_lang.check.scope import Scope
 from xei_lang.check.types import ANY_ARM
+from xei_lang.check.value_habits import in_place_of_a_name
 from xei_lang.check.values import POISON, ObjectValue, Val, Word
 from xei_lang.diagnostics import did_you_mean
 from xei_lang.ir.skill_plan import StationRef
@@ -43,8 +44,9 @@ class Names:
     def _unknown(self, node: Name, scope: Scope, words: tuple[str, ...]) -> None:
         known = (*scope.names(), *words, *self._registry.objects, *self._registry.stations)
         near = did_you_mean(node.id, known)
-        lower = node.id.lower()
-        is_bool = lower in ("true", "false")
+        help, fix = in_place_of_a_name(node.id, node.span, self._registry)
+        if near and (fix is None or fix.applicability != "safe"):
+            help, fix = meant(near), guess(node.span, near)
         self._reporter.report(
             "XEI0202",
             f"`{node.id}` is not known here",
@@ -52,15 +54,6 @@ class Names:
             f"expected {' or '.join(f'`{word}`' for word in words)}"
             if len(words) > 1
             else "no object, station, parameter or variable has this name",
-            help=(f"write `{lower}`",) if is_bool else meant(near) or _place_habit(node.id),
-            fix=replace(node.span, lower) if is_bool else guess(node.span, near),
+            help=help,
+            fix=fix,
         )
-
-
-def _place_habit(name: str) -> tuple[str, ...]:
-    looks = len(name) in (2, 3) and name[0].isupper() and name[1:].isdigit()
-    return (
-        (f'a slot belongs to a rack: write `rack.slot("{name}")` with the name of your rack',)
-        if looks
-        else ()
-    )

@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING
 
 from xei_lang.check import arithmetic
 from xei_lang.check.lists import Evaluate
+from xei_lang.check.names import ANY_WORD
 from xei_lang.check.report import Reporter
 from xei_lang.check.run_time import MAX_FORMULA, formula_of, joined, needs_of, negated
 from xei_lang.check.scope import Scope
 from xei_lang.check.values import POISON, ObjectValue, PlaceValue, Undecided, Val, Word, a, kind, show
 from xei_lang.diagnostics import Label
 from xei_lang.quantity import DimensionError
-from xei_lang.syntax.ast import Binary, BoolOp, CallExpr, Compare, Expression, Unary
+from xei_lang.syntax.ast import Attr, Binary, BoolOp, CallExpr, Compare, Expression, Unary
 
 if TYPE_CHECKING:
     from xei_lang.check.conditions import Asked
@@ -61,7 +62,9 @@ class Operators:
 
         if node.op in ("==", "!="):
             left = self._evaluate(node.left, scope)
-            right = self._evaluate(node.right, scope, self._state_words(node.left, scope, asked))
+            lost = left is POISON and isinstance(node.left, Attr)
+            words = ANY_WORD if lost else self._state_words(node.left, scope, asked)
+            right = self._evaluate(node.right, scope, words)
             if left is POISON or right is POISON:
                 return POISON
             if not (arithmetic.is_numeric(left) and arithmetic.is_numeric(right)):

@@ -67,6 +67,17 @@ class Places:
             return POISON
         return self._in_grid(owner, name, str(argument), grid, node)
 
+    def keys(self, owner: ObjectValue, name: str) -> tuple[str, ...]:
+        """What may stand in the parentheses of `owner.name("...")`; none where the owner is still open."""
+        thing = owner.registered
+        if thing is None or name == "column":
+            return ()
+        if name == "spot":
+            return tuple(spot.name for spot in thing.spots)
+        if thing.slots is None:
+            return ()
+        return slot_keys(thing.slots) if name == "slot" else tuple(thing.slots.rows)
+
     def surface(self, value: ObjectValue, expected: Expectation, node: Expression) -> Val:
         """A whole object as a place to set something down on; it must have the role `surface`."""
         thing = value.registered

@@ -10,6 +10,7 @@ from xei_lang.check.registry import Registry
 from xei_lang.check.report import Reporter, listed, replace
 from xei_lang.check.roles import candidates, first_misfit, text, unmet
 from xei_lang.check.state import State
+from xei_lang.check.value_habits import NO_MEND, Mend, bare_slot
 from xei_lang.check.values import (
     POISON,
     Interval,
@@ -101,7 +102,7 @@ class Types:
             node.span,
             f"expected {expected.noun}, found {a(found)}",
             notes=self._rule(expected),
-            help=(f"write `{mended}` if that is what you mean",) if mended else (),
+            help=(f"write `{mended}` if that is what you mean",) if mended else _confused(probe, expected),
             fix=replace(node.span, mended, _applicability(node)) if mended else None,
         )
         return POISON
@@ -202,17 +203,26 @@ class Types:
 
     def _wrong(self, value: Val, expected: Expectation, node: Expression) -> Val:
         quoted = isinstance(node, StringLit) and isinstance(value, str) and expected.type != "String"
-        name = value if quoted and str(value) in self._registry.objects else None
+        help, fix = self._unquoted(value, expected, node) if quoted else NO_MEND
         self._reporter.report(
             "XEI0305",
             f"`{show(value)}` is {kind(value)}, but {expected.what} takes {expected.noun}",
             node.span,
             f"expected {expected.noun}, found {kind(value)}",
             notes=self._rule(expected),
-            help=(f"write the object's name without quotes: `{name}`",) if name else (),
-            fix=replace(node.span, str(name)) if name else None,
+            help=help,
+            fix=fix,
         )
         return POISON
+
+    def _unquoted(self, value: Val, expected: Expectation, node: Expression) -> Mend:
+        """What stands in quotes and should not: an object, an arm; a slot without its rack."""
+        name = str(value)
+        if name in self._registry.objects:
+            return (f"write the object's name without quotes: `{name}`",), replace(node.span, name)
+        if expected.type == "Arm" and name in (*self._registry.arms, ANY_ARM):
+            return (f"write it without quotes: `{name}`",), replace(node.span, name)
+        return bare_slot(name, node.span, self._registry) if expected.type in ("Place", "object") else NO_MEND
 
     def _rule(self, expected: Expectation) -> tuple[str, ...]:
         return (self._reporter.rule(expected.rule),) if expected.rule else ()
@@ -249,6 +259,14 @@ def _mended_unit(node: Expression, dimensions: tuple[Dimension, ...]) -> str | N
         if node.value.unit == written and UNITS[better].dimension in dimensions:
             return str(quantity(node.value.magnitude, better))
     return None
+
+
+def _confused(found: Quantity, expected: Expectation) -> tuple[str, ...]:
+    if expected.type != "CentrifugalForce":
+        return ()
+    if found.dimension.name == "Frequency":
+        return ("how strong a spin is depends on the rotor's radius too: write its force, as in `3000 xg`",)
+    return ("a centrifugal force is written with `xg`, as in `3000 xg`",)
 
 
 def _applicability(node: Expression) -> Applicability:
