@@ -9,6 +9,7 @@ from functools import cache
 from pathlib import Path
 
 from xei_lang.check import CheckOptions, check_module
+from xei_lang.check.plan_file import check_plan, read_plan_text
 from xei_lang.diagnostics import Diagnostics, Source, Sources
 from xei_lang.diagnostics.render.full import render_full
 from xei_lang.ir.skill_plan import SkillPlan
@@ -87,6 +88,21 @@ def rendered(text: str, diagnostics: Diagnostics) -> str:
     return render_full(
         diagnostics, {name: Source(name, body) for name, body in {**others, "t.xei": main}.items()}
     )
+
+
+def check_json(text: str, folder: Path = LAB) -> tuple[SkillPlan | None, Diagnostics]:
+    """Check the text of a plan that came from elsewhere."""
+    source = Source("plan.json", text)
+    read, said = read_plan_text(source)
+    if read is None:
+        return None, said
+    plan, found = check_plan(read, source, profile(folder), profile_sources())
+    return (None if said else plan), (*said, *found)
+
+
+def rendered_plan(text: str) -> str:
+    """What is said of the text of a plan."""
+    return render_full(check_json(text)[1], {"plan.json": Source("plan.json", text)})
 
 
 def protocol(body: str) -> str:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.check.checking import check, rendered
+from tests.check.checking import check, rendered, rendered_plan
 from xei_lang.diagnostics import CATALOGUE
 
 PAGES = sorted((Path(__file__).parent / "errors").glob("*.md"))
@@ -19,7 +19,12 @@ ELSEWHERE = {"XEI0204", "XEI0321"}
 
 
 def produce(text: str) -> str:
-    """What the checker says; a first line `# options: --bind a=b --param c=d --open` sets its options."""
+    """What the checker says; a first line `# options: --bind a=b --param c=d --open` sets its options.
+
+    A text that begins as JSON does is a plan.
+    """
+    if text.startswith(("{", "[")):
+        return rendered_plan(text)
     first = text.partition("\n")[0]
     words = shlex.split(first.removeprefix("# options:")) if first.startswith("# options:") else []
     pairs = {"--bind": {}, "--param": {}}

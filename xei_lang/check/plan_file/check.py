@@ -15,7 +15,7 @@ from xei_lang.check.binding import CheckOptions
 from xei_lang.check.context import Context, make_context
 from xei_lang.check.plan_file.facts import check_facts
 from xei_lang.check.plan_file.in_json import in_json
-from xei_lang.check.plan_file.order import check_references, in_order
+from xei_lang.check.plan_file.order import check_bounds, check_references, in_order
 from xei_lang.check.plan_file.steps import StepChecker
 from xei_lang.check.report import Reporter
 from xei_lang.diagnostics import Diagnostic, Diagnostics, Source, Sources, Span, has_errors
@@ -83,6 +83,7 @@ def check_plan(
     plan, said = plan_from_json(text.root, _argument_types(context))
     reporter = Reporter(sources)
     check_references(text.root, text.steps, reporter)
+    check_bounds(plan.constraints, reporter)
     check_facts(text.root, context)
     order = in_order(plan.steps, text.root, reporter)
     steps = StepChecker(context, source, text.root).check(plan, order)

@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 from fractions import Fraction
 
-from xei_lang.diagnostics import Diagnostic, Span
+from xei_lang.diagnostics import Span
 from xei_lang.ir.forms.json_tree import JsonNode
 from xei_lang.ir.forms.plan_values import PLACE, ValueReader
 from xei_lang.quantity import TYPE_DIMENSIONS, QuantityError, parse_quantity
@@ -54,13 +54,6 @@ class AsExpression:
         if isinstance(value, (int, float)):
             return Number(value if isinstance(value, int) else Fraction(repr(value)), span)
         return _text(str(value), type_, span)
-
-
-def reports(node: JsonNode, type_: str | None) -> list[Diagnostic]:
-    """What the reader of the form says of a value."""
-    reader = ValueReader()
-    reader.value(node, type_)
-    return reader.found
 
 
 def _text(text: str, type_: str | None, span: Span) -> Expression | None:

@@ -40,6 +40,5 @@ def _fact(facts: JsonNode, subject: str, subjects: tuple[str, ...], item: JsonNo
         )
     for value in item.elements if item.kind == "array" else [item]:
         node = AsExpression("lower").of(value, None)
-        if node is not None:
-            words = (*context.registry.arms, EITHER, NOTHING)
-            context.evaluator.value(node, Scope(Usage()), words)
+        if node is not None and value.value not in (*context.registry.arms, EITHER, NOTHING):
+            context.evaluator.value(node, Scope(Usage()))

@@ -8,7 +8,8 @@ from collections.abc import Iterator, Sequence
 from xei_lang.check.report import Reporter, guess, meant
 from xei_lang.diagnostics import Label, Span, did_you_mean
 from xei_lang.ir.forms.json_tree import JsonNode
-from xei_lang.ir.skill_plan import Step
+from xei_lang.ir.forms.plan_read import STATEMENTS, step_kind
+from xei_lang.ir.skill_plan import Step, TimeConstraint
 
 _SHOWN = 6
 
@@ -37,6 +38,18 @@ def check_references(root: JsonNode, known: dict[str, Span], reporter: Reporter)
                 "no step of this plan has this id",
                 help=meant(near),
                 fix=guess(node.span, near),
+            )
+
+
+def check_bounds(constraints: Sequence[TimeConstraint], reporter: Reporter) -> None:
+    """Report bounds on time that nothing can meet."""
+    for constraint in constraints:
+        if constraint.lower_s > constraint.upper_s:
+            reporter.report(
+                "XEI0322",
+                f"nothing takes at least {constraint.lower_s:g} s and at most {constraint.upper_s:g} s",
+                constraint.span,
+                "expected `lower_s` below `upper_s`",
             )
 
 
@@ -107,6 +120,10 @@ def _references(root: JsonNode) -> Iterator[JsonNode]:
         for key in ("after", "needs"):
             listed = step.get(key)
             yield from listed.elements if listed else ()
+        own, args = STATEMENTS.get(step_kind(step)), step.get("args")
+        named = args.get(own[0]) if args and own and own[1] == "Step" else None
+        if named is not None and named.kind == "string":
+            yield named
     for key, names in (
         ("constraints", ("from_step", "to_step")),
         ("unmapped_requests", ("after_step",)),

@@ -10,6 +10,7 @@ from xei_lang.check.context import Context
 from xei_lang.check.effects import apply_effects, resources_of
 from xei_lang.check.initial import initial_state
 from xei_lang.check.plan_file.expressions import AsExpression
+from xei_lang.check.plan_file.statements import check_statement
 from xei_lang.check.report import listed
 from xei_lang.check.scope import Scope, Usage
 from xei_lang.check.state import State
@@ -18,6 +19,8 @@ from xei_lang.ir.forms.json_tree import JsonNode
 from xei_lang.ir.skill_plan import Argument, RunValue, SkillPlan, Step
 from xei_lang.profiles.model import SkillSpec
 from xei_lang.syntax.ast import Arg, Call, Name
+
+_PERSON = "person"
 
 
 class StepChecker:
@@ -119,22 +122,19 @@ class StepChecker:
 
     def _statement(self, step: Step, node: JsonNode) -> Step:
         """A step without a skill; a person and the parts of the robot are all that can own it."""
-        owners = (*self._context.registry.owners, "person", "")
-        if step.owner not in owners:
+        owners = self._context.registry.owners
+        if step.owner not in (*owners, _PERSON, ""):
             self._context.reporter.report(
                 "XEI0204",
                 f"this robot has no `{step.owner[:80]}`",
                 node.items["owner"].span,
-                f"this robot has {listed(self._context.registry.owners, 12)}",
+                f"this robot has {listed(owners, 12)}",
             )
-        if step.kind == "wait" and "duration_s" not in node.items and step.arg("duration") is None:
-            self._context.reporter.report(
-                "XEI0302",
-                "a `wait` needs the argument `duration`",
-                node.items["skill"].span,
-                "`duration` missing",
-            )
-        return step
+        check_statement(step.kind, node, self._context, self._state)
+        if step.kind != "confirm":
+            return step
+        resources = step.resources if "resources" in node.items else (_PERSON,)
+        return replace(step, owner=step.owner or _PERSON, resources=resources)
 
 
 def _argument(found: Argument, said: Argument | None) -> Argument:

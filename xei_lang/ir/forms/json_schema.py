@@ -19,6 +19,7 @@ Pointer = tuple[str | int, ...]
 
 ANNOTATIONS = ("$schema", "$defs", "title", "description")
 _SHOWN = 8
+_MOST_TYPES = 3
 _NOUNS = {
     "object": "an object",
     "array": "an array",
@@ -123,7 +124,8 @@ def _type(node: JsonNode, wanted: str | list[str]) -> tuple[str, str] | None:
     if node.kind in types or (whole and "integer" in types):
         return None
     expected = " or ".join(_NOUNS[name] for name in types)
-    return f"{_NOUNS[node.kind]} stands where {expected} is expected", f"expected {expected}"
+    short = expected if len(types) <= _MOST_TYPES else "a value"
+    return f"{_NOUNS[node.kind]} stands where {short} is expected", f"expected {expected}"
 
 
 def _const(node: JsonNode, wanted: Any) -> tuple[str, str] | None:

@@ -196,11 +196,17 @@ class _Reader:
             elif self._here('"'):
                 break
             else:
-                where = Span(self.file, start, start + 1) if self._is_over() else self._character()
-                what = "a text is not closed" if self._is_over() else "a text holds a raw control character"
-                raise _BrokenError(Diagnostic("XEI0110", what, where, "begins here" * self._is_over()))
+                raise _BrokenError(self._unclosed(start))
         text = "".join(parts)
         return self._sound(text, self._since(start))
+
+    def _unclosed(self, start: int) -> Diagnostic:
+        if self._is_over() or self.text[self.at] in "\r\n":
+            quote = Span(self.file, start, start + 1)
+            return Diagnostic("XEI0110", "a text is not closed", quote, "begins here, and ends with the line")
+        here = Span(self.file, self.at, self.at + 1)
+        help_ = (f"write `\\u{ord(self.text[self.at]):04x}`",)
+        return Diagnostic("XEI0110", "a text holds a control character", here, help=help_)
 
     def _escape(self) -> str:
         start = self.at
@@ -250,9 +256,6 @@ class _Reader:
 
     def _since(self, start: int) -> Span:
         return Span(self.file, start, self.at)
-
-    def _character(self) -> Span:
-        return Span(self.file, self.at, self.at + 1)
 
     def _say(self, message: str, span: Span, label: str, labels: tuple[Label, ...] = ()) -> None:
         self.found.append(Diagnostic("XEI0110", message, span, label, labels))

@@ -7,7 +7,8 @@ only what its schema requires must be there; the rest is then what the schema sa
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
+from types import MappingProxyType
 from typing import cast, get_args
 
 from xei_lang.diagnostics import Diagnostics
@@ -33,7 +34,15 @@ ArgumentType = Callable[[str, str], str | None]
 WITH_SKILL: tuple[StepKind, ...] = ("skill", "start", "measure")
 """The kinds of steps that name a skill."""
 
-_STATEMENTS = {("wait", "duration"): "Time", ("confirm", "text"): "String"}
+STATEMENTS: Mapping[str, tuple[str, str]] = MappingProxyType(
+    {
+        "wait": ("duration", "Time"),
+        "confirm": ("text", "String"),
+        "require": ("condition", "String"),
+        **dict.fromkeys(("await", "pause", "resume", "stop", "leave"), ("step", "Step")),
+    }
+)
+"""The one argument of each kind of step without a skill, and its type; a `Step` is named by its id."""
 
 
 def plan_from_json(root: JsonNode, type_of: ArgumentType) -> tuple[SkillPlan, Diagnostics]:
@@ -113,7 +122,8 @@ class _PlanReader:
     def _argument(
         self, skill: str, name: str, node: JsonNode, by_default: bool, needs: tuple[str, ...]
     ) -> Argument:
-        type_ = _STATEMENTS.get((skill, name)) or self.type_of(skill, name)
+        own = STATEMENTS.get(skill)
+        type_ = own[1] if own and own[0] == name else self.type_of(skill, name)
         value = self.values.value(node, type_, needs)
         source = "default" if by_default else "call"
         return Argument(name, value, type_ or _own_type(value), source, node.span)

@@ -84,13 +84,14 @@ class ValueReader:
         return RunValue(formula, named_steps(formula, needs), lower, upper)
 
     def facts(self, node: JsonNode | None) -> tuple[Fact, ...]:
-        """`{"holding": {"left": "nothing"}}` as facts, sorted by variable and subject; an array holds several
-        values.
+        """`{"holding": {"left": "nothing"}}` as facts, sorted by variable and subject.
+
+        An array under `holding` holds several facts: what is in which hand is not known.
         """
         facts: list[Fact] = []
         for variable, subjects in sorted(node.items.items() if node else ()):
             for subject, item in sorted(subjects.items.items()):
-                several = item.elements if item.kind == "array" else [item]
+                several = item.elements if variable == "holding" and item.kind == "array" else [item]
                 facts.extend(Fact(variable, subject, self.fact(variable, one)) for one in several)
         return tuple(dict.fromkeys(facts))
 
