@@ -157,17 +157,22 @@ def test_no_plan_makes_the_checker_raise(plan: Any) -> None:
         assert verify_plan(made) == ()
 
 
-WILD = [None, True, 0, -1, 1e300, 10**200, "", "x" * 5000, "\x1b[31m", "rack_1.slot(\"\")", "rack_1.row(\"A\")",
-        "tube_1.slot(\"A1\")", [["tube_1"]] * 3, {"value": 1e300, "unit": "mL"}, {"value": 0, "unit": "degC"},
-        {"value": -1, "unit": "s"}, {"measured": "x", "lower": 0, "upper": {"value": 1, "unit": "mL"}}]  # fmt: skip
+WILD = [
+    *(None, True, 0, -1, 1e300, 10**200, "", "x" * 5000, "\x1b[31m", [["tube_1"]] * 3),
+    *('rack_1.slot("")', 'rack_1.row("A")', 'tube_1.slot("A1")', "table", "either", "1 mL"),
+    *({"value": 1e300, "unit": "mL"}, {"value": 0, "unit": "degC"}, {"value": -1, "unit": "s"}),
+    {"measured": "x", "lower": 0, "upper": {"value": 1, "unit": "mL"}},
+]
+ARGUMENTS = (
+    "object into on arm volume source target force for turns cool station duration text pace step".split()
+)
 
 
 @settings(max_examples=200)
 @given(data=st.data())
 def test_no_argument_makes_the_checker_raise(data: st.DataObject) -> None:
     skill = data.draw(st.sampled_from(["pick", "insert", "place", "pour", "spin", "nav_to", "wait", "await"]))
-    names = st.sampled_from(["object", "into", "on", "arm", "volume", "source", "target", "force", "for", "turns",
-                             "cool", "station", "duration", "text", "pace", ""])  # fmt: skip
+    names = st.sampled_from([*ARGUMENTS, ""])
     args = data.draw(st.dictionaries(names, st.sampled_from(WILD), max_size=4))
     made, said = check_json(steps({"step_id": "a", "skill": skill, "args": args}))
     assert (made is None) == bool(said)

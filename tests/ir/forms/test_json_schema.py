@@ -22,7 +22,8 @@ SCHEMA = json.loads(Path(plan_json.__file__).with_name("plan.schema.json").read_
 PLAN = plan_json.to_json(plan_of(RICH), {})
 VALUES = st.sampled_from(
     [None, True, 0, 1, -1, 1.0, 1.5, "", "a", "wait", "start", [], ["a"], ["a", "a"], [0, None], [1, 2, 3],
-     {}, {"value": 1, "unit": "mL"}, {"value": "1", "unit": "mL"}, {"value": 1}, {"at": {"x": "y"}}, {"at": "x"},
+     {}, {"value": 1, "unit": "mL"}, {"value": "1", "unit": "mL"}, {"value": 1},
+     {"at": {"x": "y"}}, {"at": "x"},
      {"measured": "od", "lower": 0, "upper": 1}, {"measured": "od"}, {"procedure": "p", "line": 3}]
 )  # fmt: skip
 KEYS = st.sampled_from(
