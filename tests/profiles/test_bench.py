@@ -19,6 +19,8 @@ def test_the_skill_bank_is_the_one_that_protocols_are_written_for():
         "close_gripper": ["arm"],
         "set_do": ["output", "value"],
         "read_temperature": ["device"],
+        "heat": ["block", "to", "for"],
+        "incubate": ["device", "program"],
     }
     assert all(skill.exposed and skill.phrases and skill.process for skill in bench().bank.skills)
 

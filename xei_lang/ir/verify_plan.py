@@ -10,6 +10,7 @@ import math
 from collections.abc import Iterable, Iterator
 
 from xei_lang.ir.skill_plan import Fact, SkillPlan, Step, TimeConstraint
+from xei_lang.ir.verify_works import work_problems
 
 
 def verify_plan(plan: SkillPlan) -> tuple[str, ...]:
@@ -17,8 +18,8 @@ def verify_plan(plan: SkillPlan) -> tuple[str, ...]:
 
     Checked: unique, non-empty step ids; `after` names earlier steps only (so there is no cycle), each once;
     what is needed are earlier steps that measure; a skill has a name and an owner, arguments are named once;
-    durations are ordered and not negative; turns count from 1; facts are sorted and said once; constraints,
-    notes and unmapped requests name steps of the plan.
+    durations are ordered and not negative; turns count from 1; facts are sorted and said once; what is
+    started is ended once; constraints, notes and unmapped requests name steps of the plan.
     """
     problems: list[str] = []
     seen: set[str] = set()
@@ -29,6 +30,7 @@ def verify_plan(plan: SkillPlan) -> tuple[str, ...]:
         seen.add(step.step_id)
         if step.kind == "measure":
             measuring.add(step.step_id)
+    problems.extend(work_problems(plan.steps))
     problems.extend(f"initial state: {text}" for text in _facts(plan.initial_state))
     for constraint in plan.constraints:
         problems.extend(_constraint(constraint, seen))

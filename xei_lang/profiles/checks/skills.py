@@ -11,6 +11,7 @@ from xei_lang.diagnostics import Diagnostic, Span
 from xei_lang.ir.goals import GoalKind, PathKind
 from xei_lang.profiles.checks.names import OPERATION_PARAMETERS
 from xei_lang.profiles.checks.unknown import unknown
+from xei_lang.profiles.instruments import OWNER
 from xei_lang.profiles.model import Profile, SkillSpec, TemplateStep
 from xei_lang.profiles.trees import Trees
 from xei_lang.syntax import ast
@@ -58,6 +59,7 @@ def check_skills(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
                 if role.id not in roles
             )
         yield from _contract(skill)
+        yield from _occupied(skill, trees)
         yield from _phrases(skill, trees)
         for index, step in enumerate(skill.template):
             yield from _fields(skill, step)
@@ -80,6 +82,22 @@ def _contract(skill: SkillSpec) -> Iterator[Diagnostic]:
                     for name in subjects
                     if name.id not in names
                 )
+
+
+def _occupied(skill: SkillSpec, trees: Trees) -> Iterator[Diagnostic]:
+    """Whether what an instrument holds are arguments of its skill."""
+    names = [arg.name for arg in skill.args if arg.type in ("object", "Place")]
+    for index, name in enumerate(skill.occupies):
+        if name not in names:
+            yield _no_argument(skill, name, names, trees.of_skill(skill.name, "occupies", index))
+    if skill.occupies_span is not None and skill.owner != OWNER:
+        yield Diagnostic(
+            "XEI0623",
+            f"`{skill.name}` occupies something, and no instrument performs it",
+            skill.occupies_span,
+            label=f"performed by `{skill.owner}`",
+            help=("leave it out; what an arm works with is in its `requires` and `ensures`",),
+        )
 
 
 def _phrases(skill: SkillSpec, trees: Trees) -> Iterator[Diagnostic]:
@@ -128,6 +146,7 @@ def _known(profile: Profile, skill: SkillSpec, step: TemplateStep, field: str) -
         "tool": [*of_type["Arm"], *profile.bank.arms],
         "arm": [*of_type["Arm"], *profile.bank.arms],
         "object": of_type["object"],
+        "instrument": of_type["object"],
         "station": [*of_type["Station"], *(station.name for station in profile.calibration.stations)],
         "path": list(get_args(PathKind)),
         "keep": ["upright"],

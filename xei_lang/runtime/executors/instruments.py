@@ -52,8 +52,6 @@ class Clocks:
     def _end(self, action: Instrument, timed: TimedGoal, worked_s: float) -> str:
         del self._running[action.run]
         if action.event == "await" and worked_s < action.work_s - TIME_TOLERANCE_S:
-            return (
-                f"`{action.instrument}` has worked {worked_s:g} of {action.work_s:g} s at {timed.end_s:.2f} s, "
-                "and is taken to be done"
-            )
+            at = f"has worked {worked_s:g} of {action.work_s:g} s at {timed.end_s:.2f} s"
+            return f"`{action.instrument}` {at}, and is taken to be done"
         return ""
