@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.check.checking import plan_of, protocol
+from tests.check.checking import ids, plan_of, protocol
 from xei_lang.check.rearrange import chunks, pairs, products, shuffled
 from xei_lang.check.values import ListValue, Val
 from xei_lang.ir.skill_plan import ObjectRef
@@ -78,3 +78,33 @@ def test_every_order_comes_up_about_equally_often() -> None:
     counts = Counter(shuffled((1, 2, 3, 4), seed).items for seed in range(4800))
     assert set(counts) == set(permutations((1, 2, 3, 4)))
     assert all(140 <= count <= 260 for count in counts.values())
+
+
+@pytest.mark.parametrize(
+    ("condition", "value"),
+    [
+        ("v - v == 0 mL", True),
+        ("v == v", True),
+        ("v < v", False),
+        ("v + 1 mL > v", True),
+        ("2 * v - v <= 4 mL", True),
+        ("5 mL - v >= 1 mL", True),
+        ("max(v, 4 mL) == 4 mL", True),
+        ("v != 7 mL", True),
+    ],
+)
+def test_an_open_value_is_known_again(condition: str, value: bool) -> None:
+    body = f"""
+      param v: Volume = 2 mL in 1 mL .. 4 mL
+      if {condition} {{ yes: wait 1 s }} else {{ no: wait 1 s }}
+    """
+    taken = ids(body, open_bindings=True)
+    assert taken == (["yes"] if value else ["no"])
+
+
+def test_a_part_in_the_middle_counts_with_an_open_number() -> None:
+    body = """
+      param n: Int = 2 in 1 .. 3
+      for part in chunks([tube_1, tube_2, tube_3], n) { for t in part { pick(object=t, arm=left) } }
+    """
+    assert len(ids(body, open_bindings=True)) == 3

@@ -102,3 +102,22 @@ def test_csv_is_imported_only_for_a_table() -> None:
     code = "import sys, xei_lang.check; print('csv' in sys.modules or 'xei_lang.check.tables' in sys.modules)"
     done = subprocess.run([sys.executable, "-S", "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "False"
+
+
+def test_a_part_of_a_table_has_its_columns() -> None:
+    text = """import table "t.csv" as t
+protocol p {
+  profile "lab"
+  wait sum(t[2 .. 3].rest)
+  for part in chunks(t, 2) { wait sum(part.rest) }
+  wait shuffle(t, seed=3).rest[1] + [row for row in t if row.n > 1][1].rest
+  for rest in t[2 .. 1].rest { wait rest }
+}
+# file: t.csv
+n [Int],rest [s]
+1,5
+2,7
+3,9
+"""
+    waits = [str(step.arg("duration")) for step in plan_of(text).steps]
+    assert waits == ["16 s", "12 s", "9 s", "16 s"]

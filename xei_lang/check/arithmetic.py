@@ -98,10 +98,15 @@ def compare(op: str, left: Val, right: Val) -> bool | None:
     """`left op right` for numeric values; None where open values leave it open. Raises DimensionError."""
     if not isinstance(left, Interval) and not isinstance(right, Interval):
         return _ordered(op, _numeric(left), _numeric(right))
+    apart = affine.linear("-", _either(left), _either(right), _apply)
+    if apart is not None:
+        left, right = apart, _apply("*", apart.upper, 0)
     first, second = _as_interval(left), _as_interval(right)
     if op in ("==", "!="):
-        apart = _ordered("<", first.upper, second.lower) or _ordered(">", first.lower, second.upper)
-        return (op == "!=") if apart else None
+        if _ordered("<", first.upper, second.lower) or _ordered(">", first.lower, second.upper):
+            return op == "!="
+        same = _ordered("==", first.lower, first.upper) and _ordered("==", second.lower, second.upper)
+        return (op == "==") if same else None
     answers = {_ordered(op, a, b) for a in (first.lower, first.upper) for b in (second.lower, second.upper)}
     return answers.pop() if len(answers) == 1 else None
 

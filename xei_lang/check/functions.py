@@ -10,7 +10,7 @@ from xei_lang.check import arithmetic
 from xei_lang.check.budget import Budget
 from xei_lang.check.rearrange import chunks, pairs, products, shuffled
 from xei_lang.check.report import Reporter, guess, meant
-from xei_lang.check.values import POISON, Interval, ListValue, Val, a, kind
+from xei_lang.check.values import POISON, Interval, ListValue, ObjectValue, Val, a, kind, nominal
 from xei_lang.diagnostics import Edit, Fix, Span, did_you_mean
 from xei_lang.quantity import DimensionError, Quantity
 from xei_lang.syntax.ast import CallExpr, Name, Number
@@ -128,7 +128,8 @@ class Functions:
     def _len(self, node: CallExpr, args: tuple[Val, ...]) -> Val:
         if len(args) == 1 and isinstance(args[0], ListValue):
             return len(args[0].items)
-        return self._wrong("`len` takes one list", node.span)
+        of_rack = len(args) == 1 and isinstance(args[0], ObjectValue)
+        return self._wrong("`len` takes one list", node.span, "as in `len(rack.slots)`" if of_rack else "")
 
     def _sum(self, node: CallExpr, args: tuple[Val, ...]) -> Val:
         return self._fold(node, args, lambda left, right: arithmetic.combine("+", left, right))
@@ -143,11 +144,13 @@ class Functions:
         value = args[0] if len(args) == 1 else None
         probe = value.lower if isinstance(value, Interval) else value
         if value is None or not arithmetic.is_numeric(value) or isinstance(probe, Quantity):
-            return self._wrong("`ceil` takes one plain number", node.span)
+            is_quantity = isinstance(probe, Quantity)
+            label = f"divide it by its unit, as in `ceil(v / 1 {probe.unit})`" if is_quantity else ""
+            return self._wrong("`ceil` takes one plain number", node.span, label)
         return arithmetic.rounded_up(value)
 
     def _chunks(self, node: CallExpr, args: tuple[Val, ...]) -> Val:
-        size = args[1] if len(args) == 2 else None
+        size = _stand_in(args[1]) if len(args) == 2 else None
         if not isinstance(size, int) or isinstance(size, bool) or not isinstance(args[0], ListValue):
             return self._wrong("`chunks` takes a list and a number", node.span, "as in `chunks(tubes, 4)`")
         if size < 1:
@@ -167,7 +170,7 @@ class Functions:
         return products(lists) if self._budget.spend(count, node.span) else POISON
 
     def _shuffle(self, node: CallExpr, args: tuple[Val, ...]) -> Val:
-        seed = args[1] if len(args) == 2 and node.args[1].name is not None else None
+        seed = _stand_in(args[1]) if len(args) == 2 and node.args[1].name is not None else None
         if not isinstance(seed, int) or isinstance(seed, bool) or not isinstance(args[0], ListValue):
             text = "`shuffle` takes a list and `seed=`, a whole number"
             return self._wrong(text, node.span, "as in `shuffle(tubes, seed=7)`")
@@ -180,12 +183,8 @@ class Functions:
 
     def _fold(self, node: CallExpr, args: tuple[Val, ...], step: Callable[[Val, Val], Val]) -> Val:
         items = args[0].items if len(args) == 1 and isinstance(args[0], ListValue) else args
-        if POISON in items:
+        if POISON in items or not self._are_numbers(node, items):
             return POISON
-        wrong = next((item for item in items if not arithmetic.is_numeric(item)), None)
-        if not items or wrong is not None:
-            found = "" if wrong is None else f", not {kind(wrong)}"
-            return self._wrong(f"this takes numbers or quantities, or a list of them{found}", node.span)
         if not self._budget.spend(len(items), node.span):
             return POISON
         try:
@@ -197,6 +196,21 @@ class Functions:
             self._reporter.report("XEI0312", message, node.span, "these do not go together")
             return POISON
 
+    def _are_numbers(self, node: CallExpr, items: Sequence[Val]) -> bool:
+        name = node.function.id if isinstance(node.function, Name) else ""
+        wrong = next((item for item in items if not arithmetic.is_numeric(item)), None)
+        if not items:
+            self._wrong(f"`{name}` of an empty list has no value", node.span, "there is nothing in it")
+        elif wrong is not None:
+            text = f"`{name}` takes numbers or quantities, or a list of them, not {kind(wrong)}"
+            self._wrong(text, node.span)
+        return bool(items) and wrong is None
+
     def _wrong(self, message: str, span: Span, label: str = "") -> Val:
         self._reporter.report("XEI0319", message, span, label)
         return POISON
+
+
+def _stand_in(value: Val) -> Val:
+    """What stands for a number that is still open, unless it is measured."""
+    return value if isinstance(value, Interval) and value.needs else nominal(value)

@@ -12,7 +12,17 @@ from xei_lang.check.budget import Budget
 from xei_lang.check.report import Reporter
 from xei_lang.check.scope import Scope
 from xei_lang.check.value_habits import NO_MEND, slot_of
-from xei_lang.check.values import POISON, ListValue, Numeric, ObjectValue, Val, kind, nominal, show
+from xei_lang.check.values import (
+    POISON,
+    ListValue,
+    Numeric,
+    ObjectValue,
+    RecordValue,
+    Val,
+    kind,
+    nominal,
+    show,
+)
 from xei_lang.diagnostics import Span
 from xei_lang.quantity import DimensionError, Quantity
 from xei_lang.syntax.ast import Comprehension, Expression, Index, Name, Range
@@ -77,7 +87,7 @@ class Lists:
                 f"the range `{show(parts[0])} .. {show(parts[1])}` needs a step",
                 node.span,
                 "only whole numbers go up by one by themselves",
-                (f"write for example `{show(parts[0])} .. {show(parts[1])} step {show(parts[0])}`",),
+                (f"write for example `{show(parts[0])} .. {show(parts[1])} step {_one_of(parts[1])}`",),
             )
         return self._progression(node, parts[0], parts[1], step)
 
@@ -152,7 +162,7 @@ class Lists:
                 f"there is no member {which} in a list of {count}",
                 node.index.span,
                 f"expected 1 .. {count}" if count else "the list is empty",
-                ("members are counted from 1",) if which == 0 else (),
+                _counting(which, node),
             )
             return None
         return which - 1
@@ -168,11 +178,19 @@ class Lists:
             if not self.unpack(node.names, item, inner, node.iterable.span):
                 return POISON
             keep = True if node.condition is None else self._evaluate(node.condition, inner)
-            if keep is POISON:
+            if keep is POISON or not self._is_condition(keep, node):
                 return POISON
             if keep is True:
                 made.append(self._evaluate(node.element, inner))
         return ListValue(tuple(made))
+
+    def _is_condition(self, value: Val, node: Comprehension) -> bool:
+        if isinstance(value, bool):
+            return True
+        assert node.condition is not None
+        message = f"`{show(value)}` is {kind(value)}, but `if` takes a condition"
+        self._wrong("XEI0305", message, node.condition.span, f"expected a Bool, found {kind(value)}")
+        return False
 
     def members(self, value: Val, node: Expression | Range) -> Sequence[Val] | None:
         """What a loop goes through; None where that is no list, which is reported if it is new."""
@@ -202,7 +220,9 @@ class Lists:
                 f"{len(names)} names for {found} in each turn",
                 names[0].span.join(names[-1].span),
                 f"each turn gives {found}",
-                ("`zip(a, b)` gives two values in each turn",),
+                ("`row.column` is a cell of the row",)
+                if isinstance(item, RecordValue)
+                else ("`zip(a, b)` gives two values in each turn",),
             )
             return False
         for name, part in zip(names, parts, strict=True):
@@ -212,3 +232,16 @@ class Lists:
     def _wrong(self, code: str, message: str, span: Span, label: str = "", help: tuple[str, ...] = ()) -> Val:
         self._reporter.report(code, message, span, label, help=help)
         return POISON
+
+
+def _one_of(value: Val) -> str:
+    """One of the unit of a value: `1 mL` of `5 mL`."""
+    return f"1 {value.unit}" if isinstance(value, Quantity) else "1"
+
+
+def _counting(which: int, node: Index) -> tuple[str, ...]:
+    if which == 0:
+        return ("members are counted from 1",)
+    if which < 0 and isinstance(node.value, Name):
+        return (f"the last one is `{node.value.id}[len({node.value.id})]`",)
+    return ()

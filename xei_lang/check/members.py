@@ -47,6 +47,8 @@ class Members:
         name = node.name.id
         if isinstance(owner, RecordValue | TableValue):
             return self._column(owner, node)
+        if isinstance(owner, ListValue) and (not owner.items or isinstance(owner.items[0], RecordValue)):
+            return self._column_of(owner, node)
         if isinstance(owner, ObjectValue) and name in PROPERTIES:
             return self._places.property(owner, name, node.span)
         known = (*METHODS, *PROPERTIES)
@@ -93,6 +95,11 @@ class Members:
             return self._functions.unknown(function, node, tuple(self._registry.skills))
         self._reporter.report("XEI0319", "this cannot be called", function.span, "not a function")
         return POISON
+
+    def _column_of(self, rows: ListValue, node: Attr) -> Val:
+        """A column of some rows, such as a part of a table."""
+        cells = [self._column(row, node) for row in rows.items if isinstance(row, RecordValue)]
+        return POISON if POISON in cells else ListValue(tuple(cells))
 
     def _column(self, owner: RecordValue | TableValue, node: Attr) -> Val:
         columns = owner.fields if isinstance(owner, RecordValue) else owner.columns

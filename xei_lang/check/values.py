@@ -143,7 +143,7 @@ def number(value: int | Fraction | Quantity) -> Numeric:
     return int(value) if value.denominator == 1 else value
 
 
-def show(value: Val) -> str:  # noqa: PLR0911 one return for each kind of value
+def show(value: Val) -> str:  # noqa: PLR0911, PLR0912 one return for each kind of value
     """A value as it would be written in a protocol."""
     match value:
         case bool():
@@ -161,6 +161,8 @@ def show(value: Val) -> str:  # noqa: PLR0911 one return for each kind of value
         case RecordValue():
             shown = [f"{name}: {show(cell)}" for name, cell in list(value.fields.items())[:3]]
             return f"({', '.join(shown)}{', ...' if len(value.fields) > 3 else ''})"
+        case TableValue():
+            return f"[{show(value.items[0])}, ...]" if value.items else "[]"
         case ListValue():
             shown = [show(item) for item in value.items[:3]]
             return f"[{', '.join(shown)}{', ...' if len(value.items) > 3 else ''}]"
