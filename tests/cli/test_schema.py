@@ -52,7 +52,7 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[Any]]:
     assert ran.code == 0, ran.err
     found = {
         name: [json.loads((folder / "bundle" / f"{name}.json").read_text(encoding="utf-8"))]
-        for name in ("plan", "goals", "timed")
+        for name in ("plan", "goals", "timed", "scene", "manifest")
     }
     lines = (folder / "trace.jsonl").read_text(encoding="utf-8").splitlines()
     found["doctor"] = [json.loads(xei("doctor", "--format", "json", cwd=folder).out)]

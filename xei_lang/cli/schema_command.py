@@ -18,6 +18,8 @@ FORMS: Mapping[str, tuple[str, str]] = MappingProxyType(
         "plan": ("ir/forms/plan.schema.json", "`plan.json`: the steps of a protocol as skill calls"),
         "goals": ("ir/forms/goals.schema.json", "`goals.json`: what is to move, with all parameters"),
         "timed": ("ir/forms/timed.schema.json", "`timed.json`: joints over time"),
+        "scene": ("export/scene.schema.json", "`scene.json`: the bodies before anything moves"),
+        "manifest": ("export/manifest.schema.json", "`manifest.json`: what a bundle was made from"),
         "doctor": ("doctor/doctor.schema.json", "what `xei doctor --format json` prints"),
         "trace": ("ir/forms/trace.schema.json", "a line of what `xei run --trace` writes"),
     }
