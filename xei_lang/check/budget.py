@@ -8,7 +8,7 @@ from xei_lang.diagnostics import Span
 _WORK = 250_000
 """Up to a second, in the cost of one value: a name, a number, a sum of two values."""
 _PER_STEP = 20
-TURN, CALL = 4, 16
+TURN, CALL = 6, 16
 """What a turn of a loop and a call of a procedure cost beside the values in them."""
 
 

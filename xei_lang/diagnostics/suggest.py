@@ -5,7 +5,6 @@ from __future__ import annotations
 import string
 from collections.abc import Iterable
 
-
 _LONG, _MANY = 60, 300
 """Beyond these a guess takes too long: longer names get none, among more names only those one slip away."""
 _CHARS = string.ascii_lowercase + string.digits + "_"

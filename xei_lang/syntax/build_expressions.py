@@ -13,6 +13,7 @@ from xei_lang.diagnostics import Diagnostic, Source, Span
 from xei_lang.quantity import Quantity, QuantityError, parse_quantity
 from xei_lang.syntax import ast
 from xei_lang.syntax.lexer import Token
+from xei_lang.syntax.nesting import MAX_NESTING, too_deeply_nested
 
 _NAME = re.compile(r"[a-z][a-z0-9_]*")
 _ESCAPE = re.compile(r"\\(.)")
@@ -28,6 +29,8 @@ class ExpressionBuilder:
         self.source = source
         self.diagnostics: list[Diagnostic] = []
         self._quantities: dict[str, Quantity] = {}
+        self._brackets = (0, 0, 0)
+        """The round brackets that were closed last, and how many others they hold."""
 
     # ---- tokens ----
 
@@ -118,9 +121,18 @@ class ExpressionBuilder:
     def on_paren(self, c: list[Any]) -> Any:
         """What is in brackets, which now count to its span, unless it is a single word or literal."""
         opening, inner, closing = c
+        self._nested_brackets(opening.start, closing.end)
         if isinstance(inner, _LEAVES):
             return inner
         return dataclasses.replace(inner, span=self.span(opening.start, closing.end))
+
+    def _nested_brackets(self, start: int, end: int) -> None:
+        """Brackets around brackets make no node, so that the depth of the tree says nothing of them."""
+        last_start, last_end, depth = self._brackets
+        depth = depth + 1 if start < last_start and last_end < end else 1
+        self._brackets = (start, end, depth)
+        if depth == MAX_NESTING + 1:
+            self.diagnostics.append(too_deeply_nested(self.span(start, start + 1)))
 
     def on_tuple(self, c: list[Any]) -> ast.TupleLit:
         items = tuple(child for child in c if not isinstance(child, Token))

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from xei_lang.diagnostics import Span
+from xei_lang.diagnostics import Diagnostic, Span
 from xei_lang.syntax.ast import children
 
 MAX_NESTING = 150
@@ -31,3 +31,13 @@ def too_deep(root: Any) -> Span | None:
         if depth + length * _LEVELS_PER_CHARACTER > MAX_NESTING:
             waiting.extend((child, depth + 1) for child in children(node))
     return None
+
+
+def too_deeply_nested(span: Span) -> Diagnostic:
+    """What is said of such a place."""
+    return Diagnostic(
+        "XEI0107",
+        f"this is nested more than {MAX_NESTING} levels deep",
+        span,
+        help=("move the inner part into a `procedure`, or name parts of a long expression with `let`",),
+    )

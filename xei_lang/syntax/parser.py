@@ -11,7 +11,7 @@ from xei_lang.syntax import ast
 from xei_lang.syntax.builder import Builder
 from xei_lang.syntax.driver import Driver, WrongTokenError
 from xei_lang.syntax.lexer import Token
-from xei_lang.syntax.nesting import MAX_FAULTS, MAX_NESTING, too_deep
+from xei_lang.syntax.nesting import MAX_FAULTS, too_deep, too_deeply_nested
 from xei_lang.syntax.tables import load_tables
 
 _MINIMAL = 'protocol name {\n  profile "openarm_bench"\n  wait 1 s\n}'
@@ -62,7 +62,7 @@ class Parser:
         node = self._driver.parse(tokens, start, builder, comments)
         deep = too_deep(node)
         if deep is not None:
-            return None, (*builder.diagnostics, _too_deep(deep))
+            return None, (*builder.diagnostics, too_deeply_nested(deep))
         return node, _first(builder.diagnostics, source)
 
     def _rescue(self, source: Source, start: str) -> tuple[Any, Diagnostics]:
@@ -127,12 +127,3 @@ def _no_protocol(source: Source, module: ast.Module) -> Diagnostic:
         )
     message = "this file is empty" if not source.text.strip() else "this file has no protocol in it"
     return Diagnostic("XEI0103", message, span, help=(f"a small protocol looks like this:\n{_MINIMAL}",))
-
-
-def _too_deep(span: Span) -> Diagnostic:
-    return Diagnostic(
-        "XEI0107",
-        f"this is nested more than {MAX_NESTING} levels deep",
-        span,
-        help=("move the inner part into a `procedure`, or name parts of a long expression with `let`",),
-    )

@@ -15,6 +15,9 @@ def read_source(path: Path, shown: str) -> tuple[Source | None, Diagnostics]:
     A byte order mark is kept out of the text. Line ends stay as they are.
     """
     try:
+        # To open a pipe would wait for one who writes into it, who may never come.
+        if not path.is_file() and path.exists() and not path.is_dir():
+            return None, (Diagnostic("XEI0101", f"`{shown}` is no regular file"),)
         with path.open("rb") as file:
             data = file.read(MAX_BYTES + 1)
     except (OSError, ValueError) as error:

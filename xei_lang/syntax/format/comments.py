@@ -94,6 +94,9 @@ class Cursor:
 
     def take(self, expected: str = "", *, written: str = "") -> Doc:
         """The next word, or what is `written` for it, behind the comments before it."""
+        if not self._waiting:
+            text = self._advance(expected)
+            return written or text
         remarks = self.remarks()
         text = self._advance(expected)
         return cat(remarks, written or text)

@@ -50,15 +50,19 @@ class ExpressionPrinter:
         return self._inside(kept, lambda: show(node))
 
     def _inside(self, kept: list[bool], show: Callable[[], Doc]) -> Doc:
-        if not kept:
-            return show()
-        if kept[0]:
-            opening = self.cursor.take("(")
-            inner = self._inside(kept[1:], show)
-            return self._enclosed(opening, [inner], ")")
-        self.cursor.skip("(")
-        inner = self._inside(kept[1:], show)
-        self.cursor.skip(")")
+        openings: list[Doc | None] = []
+        for is_kept in kept:
+            if is_kept:
+                openings.append(self.cursor.take("("))
+            else:
+                openings.append(None)
+                self.cursor.skip("(")
+        inner = show()
+        for opening in reversed(openings):
+            if opening is None:
+                self.cursor.skip(")")
+            else:
+                inner = self._enclosed(opening, [inner], ")")
         return inner
 
     def _value(self, node: ast.Expression) -> Doc:  # noqa: PLR0911 one return for each kind of value

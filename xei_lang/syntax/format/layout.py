@@ -78,7 +78,7 @@ EMPTY: Doc = ""
 
 def cat(*parts: Doc) -> Doc:
     """The parts one after the other."""
-    return Cat(parts, any(map(_breaks, parts)))
+    return Cat(parts, any(_breaks(part) for part in parts if type(part) is not str))
 
 
 def spaced(*parts: Doc) -> Doc:

@@ -69,6 +69,8 @@ class StatementPrinter(ExpressionPrinter):
         if node.label is not None:
             parts += [take(), take(":"), SPACE]
         parts.append(self._action(node.action))
+        if not node.clauses:
+            return cat(*parts)
         clauses = [doc for clause in node.clauses for doc in (LINE, self._clause(clause))]
         return cat(*parts, group(nest(*clauses)))
 
