@@ -193,7 +193,7 @@ def test_a_robot_that_starts_nowhere() -> None:
 
 
 def test_a_statement_that_is_not_compiled_yet() -> None:
-    assert refused(plan(("measure", {}))).code == "XEI0105"
+    assert refused(plan(("fly_to", {}))).code == "XEI0105"
 
 
 def test_one_mistake_is_reported_once_and_two_twice() -> None:

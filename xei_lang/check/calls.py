@@ -28,7 +28,7 @@ from xei_lang.check.values import (
     show,
     to_plan,
 )
-from xei_lang.diagnostics import did_you_mean
+from xei_lang.diagnostics import Span, did_you_mean
 from xei_lang.ir.skill_plan import Argument, Value
 from xei_lang.profiles.model import ArgSpec, SkillSpec
 from xei_lang.quantity import Quantity, QuantityError, parse_quantity
@@ -45,6 +45,7 @@ class CheckedCall:
     transfers: tuple[Transfer, ...]
     given: Mapping[str, Val | None]
     arguments: tuple[Argument, ...]
+    span: Span
 
     @property
     def moves_nothing(self) -> bool:
@@ -117,7 +118,7 @@ class Calls:
         if not self._slots_accept(prepared, given, values):
             return None
         found = tuple(_planned(spec, value, given) for spec, value in _present(prepared, values))
-        return CheckedCall(skill, prepared.effects, prepared.transfers, values, found)
+        return CheckedCall(skill, prepared.effects, prepared.transfers, values, found, call.callee.span)
 
     def _skill(self, call: Call) -> SkillSpec | None:
         name = call.callee.id

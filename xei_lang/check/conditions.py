@@ -10,13 +10,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from xei_lang.check.choices import condition
 from xei_lang.check.expectation import Expectation
 from xei_lang.check.names import ANY_WORD
 from xei_lang.check.plan_builder import Where
 from xei_lang.check.report import listed, meant
+from xei_lang.check.run_time import needs_of
 from xei_lang.check.scope import Scope
 from xei_lang.check.state import NOTHING
-from xei_lang.check.values import POISON, ObjectValue, PlaceValue, Val, Word, kind, show
+from xei_lang.check.values import POISON, ObjectValue, PlaceValue, Undecided, Val, Word, show
 from xei_lang.diagnostics import Label, did_you_mean
 from xei_lang.ir.skill_plan import Argument, ObjectRef, PlaceRef, Value
 from xei_lang.syntax.ast import CallExpr, Name, Require
@@ -32,18 +34,12 @@ def require(expander: Expander, node: Require, scope: Scope, where: Where) -> No
     context = expander.context
     words = context.words(node.condition.span)
     asked = Asked(expander)
-    with context.evaluator.asking(asked):
-        value = context.evaluator.value(node.condition, scope)
-    if value is POISON:
-        text = Argument("condition", words, "String", "call", node.condition.span)
-        expander.plan.add(node, "require", where, expander.state.facts(), args=(text,))
-    elif not isinstance(value, bool):
-        context.reporter.report(
-            "XEI0305",
-            f"`{show(value)}` is {kind(value)}, but `require` takes a condition",
-            node.condition.span,
-            f"expected a Bool, found {kind(value)}",
-        )
+    value = condition(expander, node.condition, "`require`", scope, asked)
+    if not isinstance(value, bool):
+        told = value.formula if isinstance(value, Undecided) else words
+        text = Argument("condition", told, "String", "call", node.condition.span)
+        facts = expander.state.facts()
+        expander.plan.add(node, "require", where, facts, args=(text,), needs=needs_of(value))
     elif not value:
         context.reporter.report(
             "XEI0331",

@@ -10,10 +10,11 @@ from xei_lang.check.expectation import Expectation
 from xei_lang.check.functions import not_yet
 from xei_lang.check.labels import Extent, Found, Labels
 from xei_lang.check.report import Reporter
+from xei_lang.check.run_time import known_now, needs_of
 from xei_lang.check.scope import Scope
 from xei_lang.check.state import State
 from xei_lang.check.types import Types
-from xei_lang.check.values import Val, nominal, show
+from xei_lang.check.values import POISON, Interval, Val, nominal, show
 from xei_lang.ir.skill_plan import TimeConstraint
 from xei_lang.quantity import Quantity
 from xei_lang.syntax.ast import After, Clause, Expression, Within
@@ -38,16 +39,22 @@ class Clauses:
         return self._within(clause, own, labels, scope, state)
 
     def duration(self, node: Expression, what: str, scope: Scope, state: State) -> Quantity | None:
-        """A time that is not negative; None where it is wrong, or open without a value to stand for it."""
+        """A time that is known now and not negative; None where it is wrong, or open without bounds."""
+        value = self.time(node, what, scope, state)
+        value = nominal(known_now(value, f"the time that {what} takes", node.span, self._reporter))
+        return value if isinstance(value, Quantity) else None
+
+    def time(self, node: Expression, what: str, scope: Scope, state: State) -> Val:
+        """A time that is not negative, whatever is measured; POISON where it is wrong."""
         value = self._evaluator.value(node, scope)
-        value = nominal(self._types.coerce(value, Expectation(what, "Time"), node, state))
-        if not isinstance(value, Quantity):
-            return None
-        if value.value < 0:
+        value = self._types.coerce(value, Expectation(what, "Time"), node, state)
+        least = value.lower if needs_of(value) and isinstance(value, Interval) else nominal(value)
+        if isinstance(least, Quantity) and least.value < 0:
+            may = "may be" if needs_of(value) else "is"
             self._reporter.report(
-                "XEI0322", f"{what} takes a time that is not negative", node.span, f"is {show(value)}"
+                "XEI0322", f"{what} takes a time that is not negative", node.span, f"{may} {show(least)}"
             )
-            return None
+            return POISON
         return value
 
     def _within(

@@ -5,19 +5,34 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 
-from xei_lang.check import choices, conditions, instruments, loops, overlap, procedures, unsupported
+from xei_lang.check import (
+    choices,
+    conditions,
+    endings,
+    instruments,
+    keeps,
+    loops,
+    measure,
+    overlap,
+    procedures,
+)
+from xei_lang.check.calls import CheckedCall
 from xei_lang.check.context import Context
 from xei_lang.check.effects import apply_effects, resources_of
 from xei_lang.check.labels import Labels
 from xei_lang.check.nominal import Nominal, Read
-from xei_lang.check.paths import step_names
+from xei_lang.check.paths import label_of, step_names
 from xei_lang.check.plan_builder import PlanBuilder, Where
+from xei_lang.check.run_time import needs_of
 from xei_lang.check.scope import Scope
 from xei_lang.check.state import State
 from xei_lang.check.transfers import apply_transfers
+from xei_lang.check.until import repeat_until
+from xei_lang.check.values import Interval, nominal, to_plan
 from xei_lang.diagnostics import Span
-from xei_lang.ir.skill_plan import Argument
+from xei_lang.ir.skill_plan import Argument, StepKind
 from xei_lang.profiles.instruments import OWNER, instrument_of, work_duration_s
+from xei_lang.quantity import Quantity
 from xei_lang.syntax.ast import (
     Await,
     Block,
@@ -28,8 +43,10 @@ from xei_lang.syntax.ast import (
     Given,
     GivenContains,
     If,
+    Keep,
     Leave,
     Let,
+    Measure,
     Member,
     Note,
     ObjectDecl,
@@ -43,6 +60,7 @@ from xei_lang.syntax.ast import (
     Start,
     Step,
     Stop,
+    StopRun,
     Unmapped,
     Wait,
     walk,
@@ -66,6 +84,8 @@ class Expander:
         self.running: list[Procedure] = []
         self.overlapping = 0
         self.begun = instruments.Begun()
+        self.keeping: list[keeps.Kept] = []
+        self.told_ends: set[Span] = set()
         self.reads: list[Read] = []
         self.alone = False
         context.evaluator.nominal = Nominal(self)
@@ -85,11 +105,16 @@ class Expander:
             if self.stopped:
                 return
             budget.reached(len(self.plan.steps))
-            self._member(member, scope, where)
+            if self.state.ended is not None:
+                endings.pass_over(self, member, scope, where)
+            else:
+                self._member(member, scope, where)
 
-    def block(self, block: Block, scope: Scope, where: Where) -> None:
-        """Expand a block in a scope of its own."""
-        self.members(block.statements, scope.child(), where.deeper())
+    def block(self, block: Block, scope: Scope, where: Where) -> Scope:
+        """Expand a block in a scope of its own, which is returned."""
+        inner = scope.child()
+        self.members(block.statements, inner, where.deeper())
+        return inner
 
     def names_of(self, block: Block) -> Mapping[Span, str]:
         """The names of the steps of a block that is a name space."""
@@ -143,20 +168,24 @@ class Expander:
         self.context.reporter.report("XEI0212", message, span, "not allowed inside a procedure")
 
     def _step(self, step: Step, scope: Scope, where: Where) -> None:
-        before = len(self.plan.steps)
+        before, label = len(self.plan.steps), label_of(step)
         self._action(step, scope, where)
+        if self.keeping:
+            keeps.watch(self, step, before)
         if self.state.works and len(self.plan.steps) == before + 1:
             instruments.watch(self, self.plan.steps[-1])
-        if not step.clauses and step.label is None:
+        if not step.clauses and label is None:
             return
         found = self.plan.since(before)
         for clause in step.clauses:
             constraints = self.context.clauses.constraint(clause, found, self.labels, scope, self.state)
             self.plan.constraints.extend(constraints)
-        if step.label is not None:
-            self.labels.add(step.label.id, found)
+        if label is not None:
+            self.labels.add(label.id, found)
 
-    def _action(self, step: Step, scope: Scope, where: Where) -> None:
+    def _action(  # noqa: PLR0912 one branch for each kind of action
+        self, step: Step, scope: Scope, where: Where
+    ) -> None:
         action = step.action
         match action:
             case Call():
@@ -180,6 +209,8 @@ class Expander:
                 self.named_block(step, action.body, scope, where)
             case For():
                 loops.for_loop(self, step, action, scope, where)
+            case Repeat(until=until) if until is not None:
+                repeat_until(self, step, action, until, scope, where)
             case Repeat():
                 loops.repeat(self, step, action, scope, where)
             case Parallel():
@@ -192,9 +223,12 @@ class Expander:
                 instruments.end(self, step, action, where)
             case Pause():
                 instruments.pause(self, step, action, scope, where)
-            case _:
-                unsupported.refuse(self.context.reporter, action)
-                unsupported.look_inside(self, step, scope, where)
+            case Measure():
+                measure.measure(self, step, action, scope, where)
+            case StopRun():
+                endings.stop(self, step, action, where)
+            case Keep():
+                keeps.keep(self, step, action, scope, where)
 
     def named_block(self, step: Step, block: Block, scope: Scope, where: Where) -> None:
         """Expand the block of a step that happens once; with a label it is a name space."""
@@ -218,6 +252,17 @@ class Expander:
         if checked.moves_nothing:
             self.plan.skip(call.callee.span, where.path(step))
             return
+        self.perform(step, checked, where)
+
+    def perform(
+        self,
+        step: Step,
+        checked: CheckedCall,
+        where: Where,
+        kind: StepKind = "skill",
+        also: tuple[Argument, ...] = (),
+    ) -> None:
+        """Add the step of a skill, with arguments besides the skill's own, and do what it brings about."""
         values = checked.values
         skill = checked.skill
         key = (
@@ -229,23 +274,23 @@ class Expander:
             self._resources[key] = resources_of(skill, values)
         self.plan.add(
             step,
-            "skill",
+            kind,
             where,
             self.state.facts(),
             skill=skill.name,
             owner=skill.owner,
-            args=checked.arguments,
+            args=(*checked.arguments, *also),
             duration_s=work_duration_s(skill, values) if skill.owner == OWNER else skill.duration_s,
             resources=self._resources[key],
         )
         apply_effects(checked.effects, values, self.state)
-        apply_transfers(checked.transfers, checked.given, self.state, name, call.callee.span)
+        apply_transfers(checked.transfers, checked.given, self.state, skill.name, checked.span)
 
     def _wait(self, step: Step, action: Wait, scope: Scope, where: Where) -> None:
-        duration = self.context.clauses.duration(action.duration, "`wait`", scope, self.state)
-        if duration is None:
+        value = self.context.clauses.time(action.duration, "`wait`", scope, self.state)
+        value = value if needs_of(value) else nominal(value)
+        low, high = (value.lower, value.upper) if isinstance(value, Interval) else (value, value)
+        if not isinstance(low, Quantity) or not isinstance(high, Quantity):
             return
-        argument = Argument("duration", duration, "Time", "call", action.duration.span)
-        self.plan.add(
-            step, "wait", where, self.state.facts(), args=(argument,), duration_s=(duration.si, duration.si)
-        )
+        argument = Argument("duration", to_plan(value), "Time", "call", action.duration.span)
+        self.plan.add(step, "wait", where, self.state.facts(), args=(argument,), duration_s=(low.si, high.si))

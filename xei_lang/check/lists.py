@@ -10,6 +10,7 @@ from typing import Protocol, overload
 from xei_lang.check import arithmetic
 from xei_lang.check.budget import Budget
 from xei_lang.check.report import Reporter
+from xei_lang.check.run_time import known_now
 from xei_lang.check.scope import Scope
 from xei_lang.check.value_habits import NO_MEND, slot_of
 from xei_lang.check.values import (
@@ -70,8 +71,8 @@ class Lists:
 
     def range(self, node: Range, scope: Scope) -> Val:
         """`1 .. 8`, `0 mL .. 5 mL step 1 mL`: both ends included; empty where they are the wrong way."""
-        parts = [nominal(self._evaluate(part, scope)) for part in (node.lower, node.upper)]
-        step = 1 if node.step is None else nominal(self._evaluate(node.step, scope))
+        parts = [self._now(part, "an end of a range", scope) for part in (node.lower, node.upper)]
+        step = 1 if node.step is None else self._now(node.step, "the step of a range", scope)
         if POISON in parts or step is POISON:
             return POISON
         for value, part in zip(
@@ -90,6 +91,10 @@ class Lists:
                 (f"write for example `{show(parts[0])} .. {show(parts[1])} step {_one_of(parts[1])}`",),
             )
         return self._progression(node, parts[0], parts[1], step)
+
+    def _now(self, node: Expression, what: str, scope: Scope) -> Val:
+        """What must be known before anything runs; an open parameter is its nominal value."""
+        return nominal(known_now(self._evaluate(node, scope), what, node.span, self._reporter))
 
     def _progression(self, node: Range, lower: Val, upper: Val, step: Val) -> Val:
         span = (node.step or node).span
@@ -115,7 +120,9 @@ class Lists:
     def index(self, node: Index, scope: Scope) -> Val:
         """`list[2]`, `list[1 .. 4]`, counted from 1."""
         value = self._evaluate(node.value, scope)
-        which = self._evaluate(node.index, scope)
+        which = known_now(
+            self._evaluate(node.index, scope), "the number of a member", node.index.span, self._reporter
+        )
         if value is POISON or which is POISON:
             return POISON
         if not isinstance(value, ListValue):
@@ -178,6 +185,8 @@ class Lists:
             if not self.unpack(node.names, item, inner, node.iterable.span):
                 return POISON
             keep = True if node.condition is None else self._evaluate(node.condition, inner)
+            if node.condition is not None:
+                keep = known_now(keep, "what this list has in it", node.condition.span, self._reporter)
             if keep is POISON or not self._is_condition(keep, node):
                 return POISON
             if keep is True:

@@ -7,13 +7,13 @@ from contextlib import nullcontext
 from typing import TYPE_CHECKING
 
 from xei_lang.check.budget import TURN
-from xei_lang.check.functions import not_yet
 from xei_lang.check.overlap import Overlap
 from xei_lang.check.plan_builder import Where
+from xei_lang.check.run_time import known_now
 from xei_lang.check.scope import Scope
 from xei_lang.check.values import POISON, Val, kind, nominal, show
 from xei_lang.diagnostics import Span
-from xei_lang.syntax.ast import Block, Call, CallExpr, For, If, Let, Name, Repeat, Step, walk
+from xei_lang.syntax.ast import Call, CallExpr, For, If, Let, Name, Repeat, Step, walk
 
 if TYPE_CHECKING:
     from xei_lang.check.expand import Expander
@@ -34,27 +34,26 @@ def for_loop(expander: Expander, step: Step, loop: For, scope: Scope, where: Whe
 
 def repeat(expander: Expander, step: Step, loop: Repeat, scope: Scope, where: Where) -> None:
     """`repeat 3 times { }`."""
+    _turns(expander, step, loop, range(1, turns_of(expander, loop, scope) + 1), scope=scope, where=where)
+
+
+def turns_of(expander: Expander, loop: Repeat, scope: Scope) -> int:
+    """How many turns a `repeat` may take; 1 where its number is wrong, which is reported, or open."""
     context = expander.context
-    if loop.until is not None:
-        not_yet(
-            context.reporter,
-            "`until`, a loop that ends by what was measured,",
-            _word(expander, loop, "until"),
-        )
-    count = nominal(context.evaluator.value(loop.count, scope))
+    value = context.evaluator.value(loop.count, scope)
+    count = nominal(known_now(value, "the number of turns", loop.count.span, context.reporter))
     if count is POISON:
-        count = 1
-    if isinstance(count, bool) or not isinstance(count, int) or count < 0:
-        context.reporter.report(
-            "XEI0317",
-            f"`{show(count)}` is no number of turns",
-            loop.count.span,
-            f"expected a whole number, found {kind(count)}"
-            if not isinstance(count, int)
-            else "expected 0 or more",
-        )
-        count = 1
-    _turns(expander, step, loop, range(1, count + 1), scope=scope, where=where)
+        return 1
+    if isinstance(count, int) and not isinstance(count, bool) and count >= 0:
+        return count
+    is_number = isinstance(count, int)
+    context.reporter.report(
+        "XEI0317",
+        f"`{show(count)}` is no number of turns",
+        loop.count.span,
+        "expected 0 or more" if is_number else f"expected a whole number, found {kind(count)}",
+    )
+    return 1
 
 
 def _turns(
@@ -62,7 +61,7 @@ def _turns(
 ) -> None:
     plan, count = expander.plan, len(items)
     if count > plan.max_steps and loop.body.statements:
-        _too_many(expander, loop, f"takes {count} turns")
+        too_many(expander, loop, f"takes {count} turns")
         return
     if not count:
         expander.skip(loop.body, scope)
@@ -74,23 +73,24 @@ def _turns(
             plan.full, plan.overflow = True, plan.overflow or loop.span
             break
         with overlap.branch() if overlap else nullcontext():
-            _turn(expander, step, loop, number, item, scope=scope, where=where)
+            turn(expander, step, loop, number, item, scope=scope, where=where)
         made = len(plan.steps) - start
-        if number == 1 and start + made * count > plan.max_steps and _regular(expander, loop):
+        if number == 1 and start + made * count > plan.max_steps and is_regular(expander, loop):
             plan.full = True
-            _too_many(expander, loop, f"makes {made * count} steps")
+            too_many(expander, loop, f"makes {made * count} steps")
         if plan.full:
             break
     expander.loops.pop()
     if overlap is not None:
         overlap.join()
     if plan.full and not expander.loops and count > 1:
-        _too_many(expander, loop, "makes too many steps")
+        too_many(expander, loop, "makes too many steps")
 
 
-def _turn(
+def turn(
     expander: Expander, step: Step, loop: For | Repeat, number: int, item: Val, *, scope: Scope, where: Where
-) -> None:
+) -> Scope:
+    """Expand one turn, which has its own names; they are returned."""
     inner = scope.child()
     lists = expander.context.evaluator.lists
     if isinstance(loop, For) and not lists.unpack(loop.names, item, inner, loop.iterable.span):
@@ -99,17 +99,18 @@ def _turn(
                 inner.declare(name, "loop variable", POISON, expander.context.reporter)
     expander.labels.open()
     if step.label is None:
-        expander.block(loop.body, inner, where.in_turn(number))
+        names = expander.block(loop.body, inner, where.in_turn(number))
         expander.labels.close(number)
-        return
+        return names
     before = len(expander.plan.steps)
     prefix = f"{where.path(step)}[{number}]."
-    expander.block(loop.body, inner, where.under(prefix, expander.names_of(loop.body), number))
+    names = expander.block(loop.body, inner, where.under(prefix, expander.names_of(loop.body), number))
     expander.labels.close_named(step.label.id, f"[{number}]")
     expander.labels.add(step.label.id, expander.plan.since(before), f"[{number}]")
+    return names
 
 
-def _too_many(expander: Expander, loop: For | Repeat, what: str) -> None:
+def too_many(expander: Expander, loop: For | Repeat, what: str) -> None:
     """One report for one expansion: the first loop that is seen to be too much is the one to name."""
     plan, reporter = expander.plan, expander.context.reporter
     if plan.overflow is not None:
@@ -127,7 +128,7 @@ def _too_many(expander: Expander, loop: For | Repeat, what: str) -> None:
     )
 
 
-def _regular(expander: Expander, loop: For | Repeat) -> bool:
+def is_regular(expander: Expander, loop: For | Repeat) -> bool:
     """Whether each turn makes as many steps as the first: nothing in the body counts by the turn."""
     names: set[str] = {name.id for name in loop.names} if isinstance(loop, For) else set()
     nodes = list(walk(loop.body))
@@ -148,12 +149,3 @@ def _regular(expander: Expander, loop: For | Repeat) -> bool:
 def _asks(node: object) -> bool:
     """Whether it asks for a volume, which may be such that there is nothing to do in some turns."""
     return isinstance(node, CallExpr) and isinstance(node.function, Name) and node.function.id == "volume"
-
-
-def _word(expander: Expander, loop: For | Repeat, word: str) -> Span:
-    """Where a word of the loop's head stands."""
-    head = loop.iterable if isinstance(loop, For) else loop.count
-    body: Block = loop.body
-    between = Span(loop.span.file, head.span.end, body.span.start)
-    at = expander.context.words(between).find(word)
-    return Span(between.file, between.start + at, between.start + at + len(word)) if at >= 0 else head.span

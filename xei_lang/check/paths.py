@@ -65,10 +65,11 @@ class _Naming:
                 self.names[member.span] = self._count("require")
             if not isinstance(member, Step):
                 continue
-            if member.label is None:
+            name = label_of(member)
+            if name is None:
                 self._unlabelled(member, taken)
                 continue
-            label = member.label.id
+            label = name.id
             self.names[member.span] = f"{block}.{label}" if label in taken and block else label
             taken.add(label)
 
@@ -95,6 +96,11 @@ class _Naming:
         return f"{word}#{self._counts[word]}"
 
 
+def label_of(step: Step) -> Name | None:
+    """The name by which a step can be referred to: its label, or else what it measures."""
+    return step.action.name if step.label is None and isinstance(step.action, Measure) else step.label
+
+
 def keyword(action: object) -> str:
     """The word by which an action without a label is numbered: the skill that it calls, or its keyword."""
     match action:
@@ -102,8 +108,6 @@ def keyword(action: object) -> str:
             return action.callee.id
         case Start():
             return action.call.callee.id
-        case Measure():
-            return action.name.id
         case _:
             return KEYWORDS[type(action)]
 
@@ -116,7 +120,6 @@ KEYWORDS: Mapping[type, str] = {
     If: "if",
     Keep: "keep",
     Leave: "leave",
-    Measure: "measure",
     Parallel: "parallel",
     Pause: "pause",
     Repeat: "repeat",
@@ -147,7 +150,10 @@ def blocks(action: object) -> tuple[Block, ...]:
 
 
 def check_labels(members: Iterable[Member], reporter: Reporter) -> None:
-    """Report labels that are used twice in one block, in this block and all inside it."""
+    """Report labels that are used twice in one block, in this block and all inside it.
+
+    What is measured counts as a label.
+    """
     for names in _labels_by_block(members):
         first: dict[str, Name] = {}
         for name in names:
@@ -170,7 +176,8 @@ def _labels_by_block(members: Iterable[Member]) -> Iterator[list[Name]]:
         labels: list[Name] = []
         for member in block:
             if isinstance(member, Step):
-                if member.label is not None:
-                    labels.append(member.label)
+                label = label_of(member)
+                if label is not None:
+                    labels.append(label)
                 waiting.extend(inner.statements for inner in blocks(member.action))
         yield labels

@@ -55,7 +55,7 @@ def known_now(value: Val, what: str, span: Span, reporter: Reporter) -> Val:
     if not needs_of(value):
         return value
     reporter.report(
-        "XEI0342",
+        "XEI0352",
         f"{what} is known only when the protocol runs",
         span,
         f"comes from {' and '.join(f'`{name}`' for name in needs_of(value))}, which is measured",

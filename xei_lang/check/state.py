@@ -13,6 +13,7 @@ from collections.abc import Iterable
 from xei_lang.check.values import Poison, to_plan
 from xei_lang.check.volumes import Amount, Volumes
 from xei_lang.check.works import Works
+from xei_lang.diagnostics import Span
 from xei_lang.ir.skill_plan import Fact, ObjectRef, PlaceRef, Value
 
 NOTHING = "nothing"
@@ -33,6 +34,8 @@ class State:
         self._taken_from: dict[PlaceRef, str] = {}
         self._in_either: tuple[str, ...] = ()
         self._touched: set[_Key] = set()
+        self.ended: Span | None = None
+        """The `stop` that ended the run before this point, which is then never reached."""
         self.works = Works()
         self.volumes = Volumes()
 
@@ -46,6 +49,7 @@ class State:
         twin._taken_from = dict(self._taken_from)
         twin._in_either = self._in_either
         twin._touched = set(self._touched)
+        twin.ended = self.ended
         twin.works = self.works
         twin.volumes = self.volumes.copy()
         return twin
@@ -80,6 +84,7 @@ class State:
             for place in before.keys() - after.keys():
                 own.pop(place, None)
             own.update(item for item in after.items() if before.get(item[0]) != item[1])
+        self.ended = self.ended or branch.ended
         self.works = self.works.adopt(base.works, branch.works)
         gone = set(base._in_either) - set(branch._in_either)
         new = tuple(name for name in branch._in_either if name not in base._in_either)
@@ -87,7 +92,11 @@ class State:
         self.volumes.adopt(base.volumes, branch.volumes)
 
     def join(self, other: State) -> State:
-        """What is known whichever of two branches was taken: the facts that both share."""
+        """What is known whichever of two branches was taken: the facts that both share. A branch that ended
+        the run says nothing of what follows.
+        """
+        if self.ended or other.ended:
+            return other.copy() if self.ended else self.copy()
         both = self.copy()
         for key in self._order:
             if other._facts.get(key) != self._facts[key]:
@@ -105,6 +114,11 @@ class State:
         if self._listed is None:
             self._listed = tuple(self._facts[key] for key in self._order)
         return self._listed
+
+    @property
+    def hands(self) -> tuple[Fact, ...]:
+        """What is known of the hands, sorted."""
+        return tuple(fact for fact in self.facts() if fact.variable == "holding")
 
     def get(self, variable: str, subject: str) -> Value | None:
         """The known value of a state variable, or None."""

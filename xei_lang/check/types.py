@@ -18,6 +18,7 @@ from xei_lang.check.values import (
     ObjectValue,
     PlaceValue,
     Poison,
+    Undecided,
     Val,
     Word,
     a,
@@ -70,7 +71,7 @@ class Types:
                 return self._number(value, expected, node)
             case "choice":
                 return self._choice(value, expected, node)
-            case "Bool" if isinstance(value, bool):
+            case "Bool" if isinstance(value, (bool, Undecided)):
                 return value
             case "String" if isinstance(value, str):
                 return value

@@ -94,11 +94,18 @@ _ENTRIES = {
     "XEI0345": Entry("something that an instrument holds is touched while it works"),
     "XEI0346": Entry("a skill that cannot be started"),
     "XEI0347": Entry("a start that is ended or paused inside of its pause"),
+    "XEI0350": Entry("a measurement with a skill that gives nothing back"),
+    "XEI0351": Entry("a measurement that could be anything"),
+    "XEI0352": Entry("a value that is needed before it is measured"),
+    "XEI0353": Entry("ways that leave the hands differently"),
+    "XEI0354": Entry("a loop whose end no measurement decides"),
+    "XEI0355": Entry("a condition that ends while it is kept"),
     # 05xx warnings
     "XEI0501": Entry("a declaration that nothing uses", "warning"),
     "XEI0502": Entry("an allow without a reason", "warning"),
     "XEI0503": Entry("an allow that silences nothing", "warning"),
     "XEI0504": Entry("a transfer of nothing, which is skipped", "info"),
+    "XEI0505": Entry("a statement that is never reached", "warning"),
     # 06xx profiles and world
     "XEI0601": Entry("a profile cannot be found"),
     "XEI0602": Entry("a file of a profile cannot be read"),
@@ -159,6 +166,7 @@ _ENTRIES = {
     "XEI0715": Entry("a robot that starts at no known station"),
     "XEI0716": Entry("a hand that holds something and has no carry pose"),
     "XEI0717": Entry("a task that needs a place known better than it is", "warning"),
+    "XEI0718": Entry("a plan that is decided while it runs"),
     # 08xx motion
     "XEI0801": Entry("an object or a place that is out of reach"),
     "XEI0802": Entry("a place that no grasp reaches without touching something"),

@@ -12,6 +12,7 @@ from xei_lang.ir.world import World
 from xei_lang.lower import instruments
 from xei_lang.lower.arms import Choice, choose, destinations
 from xei_lang.lower.assemble import Assembly
+from xei_lang.lower.decided_later import decided_when_it_runs
 from xei_lang.lower.draft import Draft, contacts
 from xei_lang.lower.hand import SIDES
 from xei_lang.lower.refusal import Refusal, refuse
@@ -31,6 +32,9 @@ def lower(
     passed over. `arms` gives steps, by id, another arm than the plan or this room chose: motion planning asks
     for that where the first one cannot. The same arguments give the same graph, byte for byte.
     """
+    undecided = decided_when_it_runs(plan)
+    if undecided:
+        return None, undecided
     scene = Scene.of(world, profile)
     assembly = Assembly(epochs=[scene.epoch])
     problems: list[Diagnostic] = []

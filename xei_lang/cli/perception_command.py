@@ -1,0 +1,91 @@
+"""`xei perception`: what cameras see."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import click
+
+from xei_lang.cli.lab import open_lab, optional
+from xei_lang.cli.options import wants_color
+from xei_lang.cli.report import exit_code, show
+from xei_lang.diagnostics import Diagnostic, Diagnostics
+from xei_lang.profiles.model import Camera, Profile
+
+MAX_IMAGE_BYTES = 100_000_000
+
+
+@click.group("perception")
+def command() -> None:
+    """Look at images with the calibrated cameras of a profile.
+
+    Example: xei perception detect bench.png
+    """
+
+
+@command.command("detect")
+@click.argument("image", type=click.Path(path_type=Path), metavar="IMAGE")
+@click.option("--profile", metavar="NAME|FOLDER", help="The profile; needed where there are several.")
+@click.option("--format", "form", type=click.Choice(["text", "json"]), default="text", show_default=True)
+@click.option("--quiet", is_flag=True, help="Print what was found and errors only.")
+@click.option("--color", type=click.Choice(["auto", "always", "never"]), default="auto", show_default=True)
+def detect(*, image: Path, profile: str | None, form: str, quiet: bool, color: str) -> None:
+    """Find AprilTags in an image, and say where the tables stand.
+
+    The base is taken to stand at the station of each table. The exit code is 0 where every table that is seen
+    stands within the tolerance that the profile states for it, else 1.
+
+    Example: xei perception detect bench.png --format json
+    """
+    colored = wants_color(color)
+    lab = open_lab(profile, colored)
+    camera = next(iter(lab.calibration.cameras), None)
+    if camera is None:
+        said: Diagnostics = (Diagnostic("XEI0680", "the profile has no camera", help=(_NO_CAMERA,)),)
+    else:
+        said = _detect(image, lab, camera, form, quiet=quiet, colored=colored)
+    show(said, {}, colored)
+    sys.exit(exit_code(said))
+
+
+_NO_CAMERA = "describe it under `cameras` of `calibration_profile.yaml`"
+
+
+def _detect(
+    image: Path, lab: Profile, camera: Camera, form: str, *, quiet: bool, colored: bool
+) -> Diagnostics:
+    optional("xei_lang.world.perception.look", colored)
+    from xei_lang.world.perception.image import decode_image
+    from xei_lang.world.perception.look import look
+    from xei_lang.world.perception.findings import findings, to_json, to_text
+
+    if not quiet:
+        click.echo(f"looking through `{camera.name}` at tags of {lab.calibration.apriltags.family}", err=True)
+    data = _read(image)
+    if isinstance(data, Diagnostic):
+        return (data,)
+    pixels = decode_image(data)
+    if pixels is None:
+        return (Diagnostic("XEI0680", f"`{image}` is no image that can be read", help=("save it as PNG",)),)
+    station = next(one for one in lab.calibration.stations if one.name == lab.calibration.start_station)
+    seen = look(pixels, lab.calibration.apriltags, camera, station.ground_frame)
+    found = findings(seen, lab, camera)
+    if form == "json":
+        from xei_lang.ir.forms.canonical import dumps
+
+        click.echo(dumps(to_json(found, image.name, camera.name)), nl=False)
+    else:
+        click.echo(to_text(found), nl=False)
+    return found.diagnostics
+
+
+def _read(image: Path) -> bytes | Diagnostic:
+    try:
+        size = image.stat().st_size
+        if size > MAX_IMAGE_BYTES:
+            return Diagnostic("XEI0680", f"`{image}` is larger than {MAX_IMAGE_BYTES // 1_000_000} MB")
+        return image.read_bytes()
+    except (OSError, ValueError) as error:
+        reason = "does not exist" if isinstance(error, FileNotFoundError) else "cannot be read"
+        return Diagnostic("XEI0101", f"`{image}` {reason}", help=("name a PNG or JPEG file",))

@@ -1,0 +1,1 @@
+"""Transforms measured from recordings: where a camera is mounted on the robot."""

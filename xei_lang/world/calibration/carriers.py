@@ -1,0 +1,53 @@
+"""What the robot moves between two frames of a calibration profile: links, and the joints on the way."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from xei_lang.ir.geometry import IDENTITY, Pose
+from xei_lang.profiles.model import Profile, RobotDescription, RobotJoint
+from xei_lang.world.frames import T_base_link
+
+
+@dataclass(frozen=True, slots=True)
+class Carried:
+    """A frame that is fixed to a link of the robot."""
+
+    frame: str
+    link: str
+    T_link_frame: Pose
+
+    def T_base_frame(self, robot: RobotDescription, joints: dict[str, float]) -> Pose:
+        """Pose of the frame in the robot's root link, at joint positions by name (rad, m)."""
+        return T_base_link(robot, self.link, joints) @ self.T_link_frame
+
+
+def carried(profile: Profile, frame: str) -> Carried | None:
+    """How the robot carries a frame; None for one that hangs on `world`, or that does not exist."""
+    links = dict(profile.calibration.robot_frames)
+    frames = {one.name: one for one in profile.calibration.frames}
+    pose, name = IDENTITY, frame
+    while name not in links:
+        if name not in frames:
+            return None
+        pose = frames[name].T_parent_frame @ pose
+        name = frames[name].parent
+    return Carried(frame, links[name], pose)
+
+
+def joints_between(robot: RobotDescription, first: str, second: str) -> tuple[RobotJoint, ...]:
+    """The joints that move one link against another, in the description's order; mimics by what they follow."""
+    ways = [_way(robot, first), _way(robot, second)]
+    moving = {name for name in ways[0] ^ ways[1]}
+    by_name = {joint.name: joint for joint in robot.joints}
+    sources = {by_name[name].mimic or name for name in moving if by_name[name].kind != "fixed"}
+    return tuple(joint for joint in robot.joints if joint.name in sources)
+
+
+def _way(robot: RobotDescription, link: str) -> set[str]:
+    by_child = {joint.child: joint for joint in robot.joints}
+    way: set[str] = set()
+    while link != robot.root:
+        way.add(by_child[link].name)
+        link = by_child[link].parent
+    return way
