@@ -166,7 +166,7 @@ _ENTRIES = {
     "XEI0715": Entry("a robot that starts at no known station"),
     "XEI0716": Entry("a hand that holds something and has no carry pose"),
     "XEI0717": Entry("a task that needs a place known better than it is", "warning"),
-    "XEI0718": Entry("a plan that is decided while it runs"),
+    "XEI0722": Entry("a plan that is decided while it runs"),
     # 08xx motion
     "XEI0801": Entry("an object or a place that is out of reach"),
     "XEI0802": Entry("a place that no grasp reaches without touching something"),

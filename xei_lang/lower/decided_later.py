@@ -72,4 +72,4 @@ def _listed(steps: tuple[str, ...]) -> str:
 
 
 def _refused(message: str, span: Span, label: str) -> Diagnostic:
-    return Diagnostic("XEI0718", message, span, label, help=_HELP)
+    return Diagnostic("XEI0722", message, span, label, help=_HELP)
