@@ -11,6 +11,7 @@ from pathlib import Path
 from xei_lang.check import CheckOptions, check_module
 from xei_lang.check.plan_file import check_plan, read_plan_text
 from xei_lang.diagnostics import Diagnostics, Source, Sources
+from xei_lang.diagnostics.options import option_source
 from xei_lang.diagnostics.render.full import render_full
 from xei_lang.ir.skill_plan import SkillPlan
 from xei_lang.profiles.load import load_profile
@@ -85,9 +86,10 @@ def plan_of(text: str, folder: Path = LAB, **options: object) -> SkillPlan:
 
 def rendered(text: str, diagnostics: Diagnostics) -> str:
     main, others = split_files(text)
-    return render_full(
-        diagnostics, {name: Source(name, body) for name, body in {**others, "t.xei": main}.items()}
-    )
+    known = {name: Source(name, body) for name, body in {**others, "t.xei": main}.items()}
+    spans = [item.span for found in diagnostics for item in (found, *found.labels) if item.span is not None]
+    options = [option_source(span.file) for span in spans]
+    return render_full(diagnostics, known | {source.file: source for source in options if source is not None})
 
 
 def check_json(text: str, folder: Path = LAB) -> tuple[SkillPlan | None, Diagnostics]:

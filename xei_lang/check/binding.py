@@ -7,27 +7,27 @@ from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
 from xei_lang.check import arithmetic
-from xei_lang.check.command_line import read_value
-from xei_lang.check.declared import declared_expectation, known_roles
+from xei_lang.check.declared import declared_expectation
 from xei_lang.check.evaluate import Evaluator
 from xei_lang.check.expectation import Expectation
+from xei_lang.check.objects import Objects
+from xei_lang.check.option_values import OptionValues
 from xei_lang.check.registry import Registry
 from xei_lang.check.report import Reporter, listed, meant
-from xei_lang.check.roles import candidates, fits, text, unmet
 from xei_lang.check.scope import Scope
 from xei_lang.check.state import State
 from xei_lang.check.types import ANY_ARM, Types
 from xei_lang.check.values import (
     POISON,
     Interval,
-    ObjectValue,
     Poison,
     Val,
     show,
 )
 from xei_lang.diagnostics import Diagnostics, Label, Source, Sources, Span, did_you_mean
-from xei_lang.quantity import DimensionError, QuantityError
-from xei_lang.syntax.ast import Module, Name, ObjectDecl, Param, Range, StringLit
+from xei_lang.diagnostics.options import option_value
+from xei_lang.quantity import DimensionError
+from xei_lang.syntax.ast import Module, ObjectDecl, Param, Range
 from xei_lang.syntax.loading import Files
 
 _NOTHING: Mapping[str, str] = MappingProxyType({})
@@ -69,6 +69,8 @@ class Binder:
         self._types = types
         self._reporter = reporter
         self._options = options
+        self._values = OptionValues(registry, evaluator, types, reporter)
+        self._objects = Objects(registry, evaluator, types, reporter, options, self._values)
 
     def unknown_names(self, declared: Iterable[ObjectDecl | Param], where: Span) -> None:
         """Report bindings and parameters of the command line that the protocol does not declare."""
@@ -90,9 +92,9 @@ class Binder:
                     about=f"{flag} {name}",
                 )
 
-    def object(self, node: ObjectDecl, scope: Scope) -> None:
+    def object(self, node: ObjectDecl, scope: Scope, state: State) -> None:
         """Declare an object under its name in the protocol."""
-        scope.declare(node.name, "object", self._object(node, scope), self._reporter)
+        scope.declare(node.name, "object", self._objects.value(node, scope, state), self._reporter)
 
     def param(self, node: Param, scope: Scope, state: State) -> None:
         """Declare a parameter of the protocol."""
@@ -101,85 +103,6 @@ class Binder:
         )
         value = POISON if expected is None else self._param(node, expected, scope, state)
         scope.declare(node.name, "parameter", value, self._reporter)
-
-    def _object(self, node: ObjectDecl, scope: Scope) -> Val:
-        if not known_roles(node.type, self._registry, self._reporter):
-            return POISON
-        given = self._options.bindings.get(node.name.id)
-        if given is not None:
-            return self._bound(node, given, node.name.span, f"`--bind {node.name.id}={given}`")
-        if node.binding is not None:
-            if isinstance(node.binding, Name) and scope.find(node.binding.id) is None:
-                return self._bound(node, node.binding.id, node.binding.span, f"`{node.binding.id}`")
-            return self._from_expression(node, self._evaluator.value(node.binding, scope))
-        if self._options.open_bindings:
-            return self._open(node)
-        self._reporter.report(
-            "XEI0206",
-            f"object `{node.name.id}` is not bound to a registered object",
-            node.name.span,
-            f"needs an object that is `{text(node.type)}`",
-            help=self._binding_help(node),
-        )
-        return POISON
-
-    def _from_expression(self, node: ObjectDecl, value: Val) -> Val:
-        assert node.binding is not None
-        if isinstance(value, Poison):
-            return POISON
-        if isinstance(value, ObjectValue) and value.registered is not None:
-            return self._bound(node, value.registered.name, node.binding.span, f"`{value.registered.name}`")
-        expected = Expectation(f"object `{node.name.id}`", "object", None, node.type)
-        return self._types.coerce(value, expected, node.binding, State(self._registry.arms))
-
-    def _bound(self, node: ObjectDecl, name: str, span: Span, words: str) -> Val:
-        thing = self._registry.objects.get(name)
-        if thing is None:
-            self._reporter.report(
-                "XEI0202",
-                f"{words} names no registered object",
-                span,
-                "no such object in the profile",
-                help=meant(did_you_mean(name, self._registry.objects)) or self._binding_help(node),
-            )
-            return POISON
-        if fits(node.type, thing.roles):
-            return ObjectValue(name, thing, node.type)
-        fitting = candidates(node.type, self._registry)
-        self._reporter.report(
-            "XEI0309",
-            f"{words} {unmet(node.type, thing.roles)}, "
-            f"but object `{node.name.id}` is to be `{text(node.type)}`",
-            span,
-            f"`{name}` has the roles {', '.join(thing.roles) or 'none'}",
-            labels=(Label(node.type.span, "declared so here"),),
-            notes=(self._reporter.rule(thing.span),),
-            help=(f"registered objects that would do: {listed(fitting)}",)
-            if fitting
-            else ("no registered object would do",),
-        )
-        return POISON
-
-    def _open(self, node: ObjectDecl) -> Val:
-        if candidates(node.type, self._registry):
-            return ObjectValue(node.name.id, None, node.type)
-        self._reporter.report(
-            "XEI0206",
-            f"no registered object can be bound to `{node.name.id}`",
-            node.type.span,
-            f"none is `{text(node.type)}`",
-        )
-        return POISON
-
-    def _binding_help(self, node: ObjectDecl) -> tuple[str, ...]:
-        fitting = candidates(node.type, self._registry)
-        if not fitting:
-            return ("no registered object would do",)
-        name = node.name.id
-        return (
-            f"bind it in the protocol, `object {name}: {text(node.type)} = {fitting[0]}`, or with "
-            f"`--bind {name}={fitting[0]}`; objects that would do: {listed(fitting)}",
-        )
 
     def _param(self, node: Param, expected: Expectation, scope: Scope, state: State) -> Val:
         limits = self.limits(node.limits, expected, scope, state)
@@ -213,18 +136,10 @@ class Binder:
         return POISON
 
     def _given(self, node: Param, given: str, expected: Expectation, limits: Val | None, state: State) -> Val:
-        written = StringLit(given, node.name.span)
-        shown = f"`--param {node.name.id}={given}`"
-        try:
-            value = read_value(given, expected, self._registry)
-        except (QuantityError, ValueError) as error:
-            reason = error.reason if isinstance(error, QuantityError) else str(error)
-            self._reporter.report(
-                "XEI0305", f"{shown} cannot be read: {reason}", node.name.span, f"takes {expected.noun}"
-            )
-            return POISON
-        value = self._types.coerce(value, expected, written, state)
-        return self.inside(value, limits, node, node.name.span, shown)
+        name = node.name.id
+        value = self._values.read("param", name, given, expected, state)
+        at = option_value("param", name, given)
+        return self.inside(value, limits, node, at, f"`--param {name}={given}`")
 
     def limits(
         self, node: Range | None, expected: Expectation, scope: Scope, state: State

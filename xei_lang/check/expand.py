@@ -147,7 +147,7 @@ class Expander:
             case Param():
                 self._param(member, scope, where)
             case ObjectDecl():
-                self.context.binder.object(member, scope)
+                self.context.binder.object(member, scope, self.state)
             case Given() | GivenContains() if where.origin:
                 self._misplaced(member.span, "what is given is said by the protocol, not by a procedure")
             case Given():

@@ -10,8 +10,8 @@ from contextlib import contextmanager
 from xei_lang.diagnostics import Diagnostic, Diagnostics, Edit, Fix, Label, Sources, Span
 from xei_lang.diagnostics.catalogue import CATALOGUE
 from xei_lang.diagnostics.diagnostic import Applicability
+from xei_lang.diagnostics.options import option_source
 from xei_lang.ir.skill_plan import Call
-
 
 MAX_ERRORS = 200
 """After so many nobody reads on, and looking for what was meant by each wrong name takes long."""
@@ -62,6 +62,7 @@ class Reporter:
             chain = tuple(
                 Label(call.span, f"in this call of `{call.procedure}`") for call in reversed(self.calls)
             )
+            fix = None if option_source(span.file) else fix
             self._found[key] = Diagnostic(code, message, span, label, labels + chain, notes, help, fix)
 
     def _has_room(self, code: str, span: Span) -> bool:

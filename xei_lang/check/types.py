@@ -30,7 +30,7 @@ from xei_lang.diagnostics import Applicability
 from xei_lang.ir.skill_plan import StationRef
 from xei_lang.quantity import TYPE_DIMENSIONS, UNITS, Quantity, quantity
 from xei_lang.quantity.dimension import NUMBER, Dimension
-from xei_lang.syntax.ast import Expression, QuantityLit, StringLit
+from xei_lang.syntax.ast import Expression, ListLit, QuantityLit, StringLit, TupleLit
 from xei_lang.world.places import place_text
 
 VALUE_TYPES = (*TYPE_DIMENSIONS, "Int", "Float", "Bool", "String", "Arm", "Place", "Station")
@@ -83,7 +83,10 @@ class Types:
     def _list(self, value: Val, expected: Expectation, node: Expression, state: State) -> Val:
         if not isinstance(value, ListValue):
             return self._wrong(value, expected, node)
-        items = tuple(self.coerce(item, expected.item, node, state) for item in value.items)
+        written = node.items if isinstance(node, (ListLit, TupleLit)) else ()
+        nodes = written if len(written) == len(value.items) else (node,) * len(value.items)
+        pairs = zip(value.items, nodes, strict=True)
+        items = tuple(self.coerce(item, expected.item, part, state) for item, part in pairs)
         return POISON if POISON in items else ListValue(items)
 
     def _quantity(self, value: Val, expected: Expectation, node: Expression) -> Val:

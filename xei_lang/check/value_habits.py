@@ -14,6 +14,7 @@ Mend = tuple[tuple[str, ...], Fix | None]
 """The lines of help, and an edit where there is one."""
 
 NO_MEND: Mend = ((), None)
+_ANSWERS = {"yes": "true", "no": "false", "on": "true", "off": "false"}
 _NOTHING = ("none", "null", "nil", "undefined", "nan")
 
 
@@ -22,6 +23,8 @@ def in_place_of_a_name(name: str, span: Span, registry: Registry) -> Mend:
     lower = name.lower()
     if lower in ("true", "false"):
         return (f"write `{lower}`",), replace(span, lower)
+    if lower in _ANSWERS:
+        return (f"write `{_ANSWERS[lower]}`",), replace(span, _ANSWERS[lower], "unsafe")
     if lower in _NOTHING:
         return ("there is no such value: leave the argument out, and its default holds",), None
     return bare_slot(name, span, registry)

@@ -8,6 +8,7 @@ import click
 
 from xei_lang.cli.exit_codes import INPUT_HAS_ERRORS, WRONG_USAGE
 from xei_lang.diagnostics import Diagnostics, Source, Sources
+from xei_lang.diagnostics.options import option_source
 from xei_lang.syntax.reading import read_source
 
 UNUSABLE_FILES = frozenset({"XEI0101", "XEI0125"})
@@ -26,7 +27,7 @@ def with_quoted(diagnostics: Diagnostics, sources: Sources) -> dict[str, Source]
     """The sources, with the texts of other files that the diagnostics point into (profiles, tables)."""
     known = dict(sources)
     for file in sorted(_files(diagnostics) - known.keys()):
-        source, _ = read_source(Path(file), file)
+        source = option_source(file) or read_source(Path(file), file)[0]
         if source is not None:
             known[file] = source
     return known
