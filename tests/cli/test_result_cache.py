@@ -160,6 +160,18 @@ def test_a_library_depends_on_being_the_only_profiles(lab: Path) -> None:
     assert kept(file=library) is None
 
 
+def test_a_plan_from_elsewhere_is_kept_as_long_as_its_profile(lab: Path) -> None:
+    plan = Path("protocols/plan.json")
+    (lab / plan).write_text(
+        '{"version": 1, "skill_calls": [{"step_id": "a", "skill": "pikc"}]}', encoding="utf-8"
+    )
+    said = check(file=plan)
+    assert [item.code for item in said] == ["XEI0201"]
+    assert kept(file=plan) == said
+    shutil.copytree(lab / "profiles/openarm_bench", lab / "profiles/second")
+    assert kept(file=plan) is None
+
+
 @pytest.mark.parametrize(
     "options",
     [

@@ -143,12 +143,27 @@ def _written(body: str, project: Path) -> str:
 
 
 def _call(arguments: list[str], project: Path, cache: Path) -> str:
-    """Run xei; what it says on either stream. The exit code must fit whether it speaks of errors."""
-    environment = os.environ | {"PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": str(cache), "NO_COLOR": "1"}
+    """Run xei; what it says on either stream. The exit code must fit whether it speaks of errors.
+
+    What goes to `> FILE` is not said.
+    """
+    if ">" in arguments:
+        command, file = arguments[: arguments.index(">")], arguments[-1]
+        written = subprocess.run(
+            [*XEI, *command],
+            cwd=project,
+            env=_environment(cache),
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert written.returncode != 70, written.stderr
+        (project / file).write_text(written.stdout, encoding="utf-8")
+        return written.stderr
     done = subprocess.run(
         [*XEI, *arguments],
         cwd=project,
-        env=environment,
+        env=_environment(cache),
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         stdin=subprocess.DEVNULL,
@@ -160,6 +175,10 @@ def _call(arguments: list[str], project: Path, cache: Path) -> str:
         f"xei {shlex.join(arguments)} ended with {done.returncode}:\n{done.stdout}"
     )
     return done.stdout
+
+
+def _environment(cache: Path) -> dict[str, str]:
+    return os.environ | {"PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": str(cache), "NO_COLOR": "1"}
 
 
 def _comparable(text: str) -> list[str]:

@@ -21,7 +21,7 @@ _LOADING = (
 )  # fmt: skip
 
 CodeState = tuple[tuple[str, int, int], ...]
-"""Name, size and time (ns) of modules, sorted."""
+"""Name, size and time (ns) of modules and of the schemas beside them, sorted."""
 
 
 def default_cache() -> Path:
@@ -40,7 +40,7 @@ def key_of(files: ProfileFiles) -> str:
 
 
 def code_state() -> CodeState:
-    """Every module of xei. A change of any may change what is said of a protocol."""
+    """Every module and schema of xei. A change of any may change what is said of a protocol."""
     root = _package()
     return tuple(sorted(found for folder in _folders(root, "") for found in _modules(root, folder)))
 
@@ -59,7 +59,7 @@ def _package() -> str:
 def _modules(root: str, folder: str) -> Iterator[tuple[str, int, int]]:
     with contextlib.suppress(OSError), os.scandir(os.path.join(root, folder)) as entries:
         for entry in entries:
-            if entry.name.endswith(".py"):
+            if entry.name.endswith((".py", ".json")):
                 status = entry.stat()
                 yield f"{folder}/{entry.name}", status.st_size, status.st_mtime_ns
 
