@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from xei_lang.check.command_line import read_value
+from xei_lang.check.cell_values import read_value
 from xei_lang.check.csv_cells import CsvRow, NotCsvError, rows
 from xei_lang.check.expectation import Expectation
 from xei_lang.check.registry import Registry

@@ -1,4 +1,4 @@
-"""Values that are given as text on the command line: `--param volume="2 mL"`, `--param side=left`."""
+"""Values that a cell of a table gives as text: `2 mL`, `left`, `rack_1.slot("A1")`."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def read_value(given: str, expected: Expectation, registry: Registry) -> Val:  #
     Raises ValueError or QuantityError, with a reason for people, where it stands for none.
     """
     if expected.lists:
-        raise ValueError("a list cannot be given on the command line")
+        raise ValueError("a cell holds one value, not a list")
     match expected.type:
         case "String":
             return given
