@@ -21,6 +21,10 @@ def test_the_skill_bank_is_the_one_that_protocols_are_written_for():
         "read_temperature": ["device"],
         "heat": ["block", "to", "for"],
         "incubate": ["device", "program"],
+        "pour": ["source", "target", "volume", "arm"],
+        "tap": ["screen", "element", "arm"],
+        "swipe": ["screen", "element", "direction", "distance", "arm"],
+        "wipe": ["object", "on", "length", "width", "arm"],
     }
     assert all(skill.exposed and skill.phrases and skill.process for skill in bench().bank.skills)
 

@@ -166,6 +166,10 @@ _ENTRIES = {
     "XEI0715": Entry("a robot that starts at no known station"),
     "XEI0716": Entry("a hand that holds something and has no carry pose"),
     "XEI0717": Entry("a task that needs a place known better than it is", "warning"),
+    "XEI0718": Entry("an object that cannot be poured from or into"),
+    "XEI0719": Entry("more to pour than a vessel gives"),
+    "XEI0720": Entry("a point that a touch screen does not have"),
+    "XEI0721": Entry("an area that cannot be wiped"),
     "XEI0722": Entry("a plan that is decided while it runs"),
     # 08xx motion
     "XEI0801": Entry("an object or a place that is out of reach"),

@@ -8,13 +8,14 @@ from typing import get_args
 from xei_lang.diagnostics import Label
 from xei_lang.ir.goals import Attach, Detach, Grip, MoveTo, Parameter, PathKind
 from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, Side
+from xei_lang.lower.build_path import PATH_FIELDS, Speed, Way, speed_of, way_of
 from xei_lang.lower.carry import states_of, to_carry_poses, to_configuration
 from xei_lang.lower.draft import Builder, Draft, contacts
-from xei_lang.lower.hand import hand_of
-from xei_lang.lower.operations import Planned, operation_of_point
+from xei_lang.lower.hand import fingers, hand_of
+from xei_lang.lower.operations import Aim, Planned, operation_of_point
 from xei_lang.lower.operations.grasp import GRASP
 from xei_lang.lower.operations.place import PLACE
-from xei_lang.lower.parameters import ROUNDING_M, Setting
+from xei_lang.lower.parameters import ROUNDING_M
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.seats import place_text
 from xei_lang.lower.task import Task, refuse_template
@@ -30,30 +31,13 @@ def _move_to(task: Task, line: TemplateStep) -> Draft | tuple[Draft, ...]:
         refuse_template(line, f"`{path}` is not a path", f"expected one of {', '.join(_PATHS)}")
     if line.field("keep") not in (None, "upright"):
         refuse_template(line, f"`{line.field('keep')}` cannot be kept", "expected `upright`")
-    speed = _speed(task, line)
+    speed = speed_of(task, line, _maybe_arm(task, line))
     if line.field("configuration") is not None:
         return _move_to_configuration(task, line, path, speed)
     return _move_to_point(task, line, path, speed)
 
 
-def _speed(task: Task, line: TemplateStep) -> Setting | None:
-    name = line.field("speed")
-    if name is None:
-        return None
-    setting = task.setting(str(name), _maybe_arm(task, line), line)
-    if not 0.0 < setting.si("Fraction") <= 1.0:
-        refuse(
-            "XEI0702",
-            f"`{setting.name}` of {setting.text} is not a fraction of full speed",
-            setting.span or task.step.span,
-            "expected more than 0 % and at most 100 %",
-        )
-    return setting
-
-
-def _move_to_configuration(
-    task: Task, line: TemplateStep, path: PathKind, speed: Setting | None
-) -> tuple[Draft, ...]:
+def _move_to_configuration(task: Task, line: TemplateStep, path: PathKind, speed: Speed) -> tuple[Draft, ...]:
     """Arms that hold something go to their carry poses first, then the others to the configuration."""
     name, side = str(line.field("configuration")), _maybe_arm(task, line)
     states = states_of(task.profile, name, side)
@@ -64,16 +48,15 @@ def _move_to_configuration(
             "expected a named state of the SRDF",
             f"rule: {task.profile.bank.srdf}",
         )
-    fraction = speed.si("Fraction") if speed else 1.0
-    upright = line.field("keep") == "upright"
+    upright, fraction = line.field("keep") == "upright", speed.fraction
     drafts = (
         *to_carry_poses(states, task.scene, task.profile, task.step.span, fraction),
         *to_configuration(states, task.scene, side, path, upright, fraction),
     )
-    return tuple(replace(draft, parameters=(*draft.parameters, *_told(speed))) for draft in drafts)
+    return tuple(replace(draft, parameters=(*draft.parameters, *speed.told)) for draft in drafts)
 
 
-def _move_to_point(task: Task, line: TemplateStep, path: PathKind, speed: Setting | None) -> Draft:
+def _move_to_point(task: Task, line: TemplateStep, path: PathKind, speed: Speed) -> Draft:
     at = str(line.field("at") or "")
     argument, _, point = at.partition(".")
     operation = operation_of_point(point)
@@ -85,19 +68,34 @@ def _move_to_point(task: Task, line: TemplateStep, path: PathKind, speed: Settin
         )
     arm = task.arm(line.field("tool"), line)
     planned = task.planned(operation, argument, arm, line)
-    aim = planned.aims[point]
+    aim, way = planned.aims[point], way_of(task, line, path, arm)
     before = task.scene
     after = before.touch(arm, aim.support).reach(arm, aim.around)
     uses = tuple(planned.settings[name].provenance() for name in aim.uses if name in planned.settings)
-    fraction = speed.si("Fraction") if speed else 1.0
-    action = MoveTo(aim.target, arm, path, line.field("keep") == "upright", fraction)
     allowed = contacts(before.reach(arm, ""), after.reach(arm, ""), arm if path == "free" else None)
-    parameters = (*task.why_arm(line.field("tool")), *uses, *_told(speed))
+    if aim.fingertips and path != "free":
+        allowed = tuple(sorted({*allowed, *((aim.fingertips, body) for body in fingers(arm))}))
+    parameters = _once((*task.why_arm(line.field("tool")), *uses, *way.told, *speed.told))
+    action = _action(aim, arm, path, line, way, speed)
     return Draft("move_to", action, (f"{arm}_arm", "slide"), after, parameters, allowed)
 
 
-def _told(*settings: Setting | None) -> tuple[Parameter, ...]:
-    return tuple(setting.provenance() for setting in settings if setting is not None)
+def _action(aim: Aim, arm: Side, path: PathKind, line: TemplateStep, way: Way, speed: Speed) -> MoveTo:
+    return MoveTo(
+        aim.target,
+        arm,
+        path,
+        line.field("keep") == "upright",
+        speed.fraction,
+        way.path,
+        speed.tool_speed_m_s,
+        speed.tool_turn_rad_s,
+    )
+
+
+def _once(parameters: tuple[Parameter, ...]) -> tuple[Parameter, ...]:
+    """The parameters without those that a later part names again."""
+    return tuple(dict.fromkeys(parameters))
 
 
 def _maybe_arm(task: Task, line: TemplateStep) -> Side | None:
@@ -192,7 +190,7 @@ def _place_plan(task: Task, line: TemplateStep, argument: str, arm: Side) -> Pla
     return task.planned(PLACE, argument, arm, line)
 
 
-MOVE_TO = Builder((), ("tool", "at", "configuration", "path", "keep", "speed"), _move_to)
+MOVE_TO = Builder((), ("tool", "at", "configuration", "path", "keep", "speed", *PATH_FIELDS), _move_to)
 OPEN_GRIPPER = Builder(("arm", "width"), (), _open_gripper)
 CLOSE_GRIPPER = Builder(("arm", "width"), (), _close_gripper)
 ATTACH = Builder(("object", "arm"), (), _attach)

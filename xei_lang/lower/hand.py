@@ -82,6 +82,11 @@ def hand_bodies(side: Side) -> tuple[str, ...]:
     return (f"openarm_{side}_hand", f"openarm_{side}_left_finger", f"openarm_{side}_right_finger")
 
 
+def fingers(side: Side) -> tuple[str, ...]:
+    """The fingers of a hand, by their link names."""
+    return hand_bodies(side)[1:]
+
+
 def tool_axes(heading: Vec3, elevation_rad: float, turned: bool) -> tuple[Vec3, Vec3, Vec3]:
     """The columns x, y, z of a tool that heads along the level unit vector `heading`, tilted down by the
     elevation.

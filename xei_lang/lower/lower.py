@@ -125,13 +125,15 @@ def _task(
     plan: SkillPlan, index: int, spec: SkillSpec, scene: Scene, profile: Profile, arm: Side | None
 ) -> Task:
     step = plan.steps[index]
-    name = next(iter(_movable(step, profile)), "")
+    movable = _movable(step, profile)
+    name = next((item for item in movable if scene.holder(item)), movable[0] if movable else "")
     ahead = destinations(plan, index, name, scene, profile) if name else ()
     arms: dict[str, Choice] = {}
     for argument in spec.args:
         if argument.type == "Arm":
             stated: Side | None = next((side for side in SIDES if step.arg(argument.name) == side), None)
-            arms[argument.name] = Choice(stated, "") if stated else choose(name, ahead, scene, profile)
+            about = name or next(iter(_objects(step)), "")
+            arms[argument.name] = Choice(stated, "") if stated else choose(about, ahead, scene, profile)
             if arm is not None:
                 arms[argument.name] = Choice(arm, "the other arm was tried and cannot")
     return Task(profile, step, spec, scene, arms, name, ahead)

@@ -79,10 +79,13 @@ class Task:
         """The operation's plan on an argument, made at its first mention in the template."""
         key = (operation.name, argument, arm)
         if key not in self.plans:
-            planned = operation.plan(self._work(argument, arm, line))
+            work = self._work(argument, arm, line)
+            planned = operation.plan(work)
             self.plans[key] = planned
-            if operation.name == "grasp" and planned.family is not None:
-                self.families.append(planned.family)
+            made = planned.family
+            known = {family.id for family in self.families}
+            if made is not None and made.id == work.family_id and made.id not in known:
+                self.families.append(made)
         return self.plans[key]
 
     def _work(self, argument: str, arm: Side, line: TemplateStep) -> Work:
@@ -107,11 +110,16 @@ class Task:
 
     def setting(self, name: str, arm: Side | None, line: TemplateStep) -> Setting:
         """A parameter that a template names: of the call, of an operation of this template, or the skill's
-        default.
+        default. Without an arm only what the lines before have planned is looked through.
         """
         layers = self.layers()
         if name in layers.call:
             return layers.call[name]
+        if arm is None:
+            plans = (plan.settings for plan in self.plans.values())
+            made = next((settings[name] for settings in plans if name in settings), None)
+            if made is not None:
+                return made
         for operation in OPERATIONS:
             argument = self._subject_of(operation) if name in operation.parameters else None
             if argument is not None and arm is not None:

@@ -4,17 +4,30 @@
 
 from __future__ import annotations
 
-from xei_lang.lower.operations.base import Aim, Operation, Planned, Work
+from xei_lang.lower.operations.base import Aim, Area, Axis, Operation, Planned, Work
 from xei_lang.lower.operations.grasp import GRASP
 from xei_lang.lower.operations.lift import LIFT
 from xei_lang.lower.operations.place import PLACE
+from xei_lang.lower.operations.pour import POUR
+from xei_lang.lower.operations.tap import SWIPE, TAP
+from xei_lang.lower.operations.wipe import WIPE
 
-OPERATIONS: tuple[Operation, ...] = (GRASP, LIFT, PLACE)
+OPERATIONS: tuple[Operation, ...] = (GRASP, LIFT, PLACE, POUR, TAP, SWIPE, WIPE)
 
 
 def operation_of_point(point: str) -> Operation | None:
     """The operation that a point such as `pregrasp` belongs to, or None."""
     return next((item for item in OPERATIONS if point in item.points), None)
+
+
+def operation_of_axis(name: str) -> Operation | None:
+    """The operation that an axis such as `pour_lip` belongs to, or None."""
+    return next((item for item in OPERATIONS if name in item.axes), None)
+
+
+def operation_of_area(name: str) -> Operation | None:
+    """The operation that an area such as `wipe_area` belongs to, or None."""
+    return next((item for item in OPERATIONS if name in item.areas), None)
 
 
 def operations_of_parameter(name: str) -> tuple[Operation, ...]:
@@ -25,9 +38,13 @@ def operations_of_parameter(name: str) -> tuple[Operation, ...]:
 __all__ = [
     "OPERATIONS",
     "Aim",
+    "Area",
+    "Axis",
     "Operation",
     "Planned",
     "Work",
+    "operation_of_area",
+    "operation_of_axis",
     "operation_of_point",
     "operations_of_parameter",
 ]

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from xei_lang.diagnostics import Span
-from xei_lang.ir.geometry import Pose
+from xei_lang.ir.geometry import Pose, Vec3
 from xei_lang.ir.goals import Family, ToolTarget
 from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, Side, Step
 from xei_lang.lower.parameters import Layers, Setting
@@ -40,19 +40,39 @@ class Aim:
     """A point of an operation: where the tool goes, and which parameters made it so.
 
     `support` is what the held object may touch once it is there; `around` is the object that the open jaws
-    then enclose.
+    then enclose; `fingertips` is what the fingers themselves may touch on the way there or away.
     """
 
     target: ToolTarget
     uses: tuple[str, ...]
     support: str = ""
     around: str = ""
+    fingertips: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Axis:
+    """A line in the base frame that an `arc` or `screw` turns about; `direction` is a unit vector."""
+
+    point_m: Vec3
+    direction: Vec3
+
+
+@dataclass(frozen=True, slots=True)
+class Area:
+    """A rectangle in the base frame that a template's `raster` covers with the family's reference, from
+    `corner_m` on.
+    """
+
+    corner_m: Vec3
+    along_m: Vec3
+    across_m: Vec3
 
 
 @dataclass(frozen=True, slots=True)
 class Planned:
     """The outcome: resolved settings and aims by name; the family of a grasp; for a place, where the object
-    ends.
+    ends; axes and areas by name.
 
     `floor_m` is how deep the object stands in what carries it (from its bottom).
     """
@@ -62,13 +82,19 @@ class Planned:
     family: Family | None = None
     T_world_placed: Pose | None = None
     floor_m: float = 0.0
+    axes: Mapping[str, Axis] = field(default_factory=dict[str, Axis])
+    areas: Mapping[str, Area] = field(default_factory=dict[str, Area])
 
 
 @dataclass(frozen=True, slots=True)
 class Operation:
-    """A deterministic planner with the points and parameters that templates may name of it."""
+    """A deterministic planner with the points and parameters that templates may name of it, and the axes and
+    areas of its stated paths.
+    """
 
     name: str
     points: tuple[str, ...]
     parameters: tuple[str, ...]
     plan: Callable[[Work], Planned]
+    axes: tuple[str, ...] = ()
+    areas: tuple[str, ...] = ()

@@ -12,14 +12,23 @@ from xei_lang.profiles.trees import Trees
 OPERATION_PARAMETERS = (
     "approach_height",
     "approach_speed",
+    "fill",
     "grasp_depth",
     "grasp_width",
     "insertion_depth",
     "jaw_clearance",
+    "lane_pitch",
     "lift",
     "open_width",
+    "pour_angle",
+    "pour_clearance",
+    "pour_height",
+    "pour_time",
     "release_width",
     "standoff",
+    "swipe_standoff",
+    "tap_standoff",
+    "wipe_height",
 )
 """What the planner of operations computes; a skill bank may add its own under `parameters`."""
 

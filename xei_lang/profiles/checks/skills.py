@@ -18,16 +18,55 @@ from xei_lang.syntax import ast
 
 POINTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
-        "object": ("pregrasp", "grasp", "lift"),
-        "Place": ("above", "place", "retreat"),
+        "object": (
+            "pregrasp",
+            "grasp",
+            "lift",
+            "pour_above",
+            "pour_tilt",
+            "tap_above",
+            "tap",
+            "swipe_above",
+            "swipe_start",
+            "swipe_end",
+            "swipe_away",
+        ),
+        "Place": (
+            "above",
+            "place",
+            "retreat",
+            "wipe_above",
+            "wipe_start",
+            "wipe_end",
+            "wipe_away",
+        ),
         "Station": ("ground_frame",),
     }
 )
 """Points of an operation, by the type of the argument that they belong to."""
 
+AXES: Mapping[str, tuple[str, ...]] = MappingProxyType({"object": ("pour_lip",)})
+AREAS: Mapping[str, tuple[str, ...]] = MappingProxyType({"Place": ("wipe_area",)})
+"""Axes and areas of an operation's stated paths, by the type of the argument that they belong to."""
+
 FIELDS: Mapping[GoalKind, tuple[tuple[str, ...], tuple[str, ...]]] = MappingProxyType(
     {
-        "move_to": ((), ("tool", "at", "path", "keep", "speed", "configuration")),
+        "move_to": (
+            (),
+            (
+                "tool",
+                "at",
+                "path",
+                "keep",
+                "speed",
+                "configuration",
+                "axis",
+                "angle",
+                "lead",
+                "area",
+                "pitch",
+            ),
+        ),
         "open_gripper": (("arm", "width"), ()),
         "close_gripper": (("arm", "width"), ()),
         "attach": (("object", "arm"), ()),
@@ -42,6 +81,8 @@ FIELDS: Mapping[GoalKind, tuple[tuple[str, ...], tuple[str, ...]]] = MappingProx
     }
 )
 """Fields that a goal of a template must have, and those that it may have."""
+
+_MINUS = ("", "-")
 
 
 def check_skills(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
@@ -65,7 +106,7 @@ def check_skills(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
             yield from _fields(skill, step)
             for field, value in step.fields:
                 known = _known(profile, skill, step, field) if isinstance(value, str) else None
-                if known is not None and value not in known:
+                if known is not None and str(value).removeprefix(_MINUS[field == "angle"]) not in known:
                     span = trees.of_skill(skill.name, "template", index, step.kind, field)
                     what = f"a `{field}` for the template of `{skill.name}`"
                     yield unknown(what, str(value), known, span, "XEI0623")
@@ -154,7 +195,10 @@ def _known(profile: Profile, skill: SkillSpec, step: TemplateStep, field: str) -
         "output": list(args),
         "value": list(args),
     }
-    if field in ("speed", "width", "height", "for"):
+    if field in ("axis", "area"):
+        kinds = AXES if field == "axis" else AREAS
+        return [f"{name}.{item}" for name, type_ in args.items() for item in kinds.get(type_, ())]
+    if field in ("speed", "width", "height", "for", "angle", "lead", "pitch"):
         return [*args, *OPERATION_PARAMETERS, *(item.name for item in skill.parameters)]
     if field == "at" and step.kind == "detach":
         return of_type["Place"]

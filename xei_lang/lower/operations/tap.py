@@ -1,0 +1,143 @@
+"""Tap and swipe: the tip of the closed jaws meets an element of a touch screen.
+
+A screen's face is the side of its box that looks along its own -x; elements are given to the right and up
+from the face's lower left corner, as one sees it.
+"""
+
+from __future__ import annotations
+
+import math
+
+from xei_lang.diagnostics import Label, did_you_mean
+from xei_lang.ir.geometry import Pose, Vec3
+from xei_lang.ir.goals import Family, ToolPose, ToolTarget
+from xei_lang.ir.skill_plan import ObjectRef
+from xei_lang.lower.hand import hand_of, tool_axes
+from xei_lang.lower.operations.base import Aim, Operation, Planned, Work
+from xei_lang.lower.parameters import Setting, computed_length
+from xei_lang.lower.refusal import refuse
+from xei_lang.profiles.model import Element, LabObject
+
+_ELEVATIONS_DEG = (0.0, 20.0, 40.0, 60.0)
+_AZIMUTHS_DEG = (0.0, 20.0, -20.0, 40.0, -40.0)
+_STANDOFF_M = 0.05
+_DIRECTIONS = {"right": (1.0, 0.0), "left": (-1.0, 0.0), "up": (0.0, 1.0), "down": (0.0, -1.0)}
+
+
+def plan_tap(work: Work) -> Planned:
+    """The aims `tap_above` and `tap` at the element that the call names."""
+    screen, element = _element(work)
+    standoff = _standoff(work, "tap_standoff")
+    T_base_element = _at(work, screen, element.center_m)
+    family = _family(work, screen)
+    touch = ToolTarget(family.id, T_base_element)
+    back = ToolTarget(family.id, T_base_element, (0.0, 0.0, 0.0), (0.0, 0.0, -standoff.si("Length")))
+    return Planned(
+        {standoff.name: standoff},
+        {
+            "tap_above": Aim(back, (standoff.name,), fingertips=screen.name),
+            "tap": Aim(touch, (), fingertips=screen.name),
+        },
+        family,
+    )
+
+
+def plan_swipe(work: Work) -> Planned:
+    """The aims `swipe_above`, `swipe_start`, `swipe_end` and `swipe_away`: along the face, by the distance
+    and in the direction of the call.
+    """
+    screen, element = _element(work)
+    standoff = _standoff(work, "swipe_standoff")
+    start = element.center_m
+    end = _end(work, screen, start)
+    T_base_start, T_base_end = _at(work, screen, start), _at(work, screen, end)
+    family = _family(work, screen)
+    off: Vec3 = (0.0, 0.0, -standoff.si("Length"))
+    none: Vec3 = (0.0, 0.0, 0.0)
+    poses = {
+        "swipe_above": (T_base_start, off),
+        "swipe_start": (T_base_start, none),
+        "swipe_end": (T_base_end, none),
+        "swipe_away": (T_base_end, off),
+    }
+    aims = {
+        name: Aim(ToolTarget(family.id, pose, none, back), (standoff.name,), fingertips=screen.name)
+        for name, (pose, back) in poses.items()
+    }
+    return Planned({standoff.name: standoff}, aims, family)
+
+
+def _element(work: Work) -> tuple[LabObject, Element]:
+    assert isinstance(work.subject, ObjectRef)
+    screen = work.profile.object(work.subject.name)
+    if screen is None or screen.name not in work.scene.standing:
+        refuse(
+            "XEI0710", f"it is not known where `{work.subject.name}` stands", work.span, "not in the world"
+        )
+    argument = next((item for item in work.step.args if item.name == "element"), None)
+    name = str(argument.value) if argument is not None else ""
+    found = next((item for item in screen.elements if item.name == name), None)
+    if found is None:
+        names = tuple(item.name for item in screen.elements)
+        refuse(
+            "XEI0720",
+            f"`{screen.name}` has no element `{name}`",
+            argument.span if argument is not None else work.span,
+            f"its elements are {', '.join(f'`{item}`' for item in names) or 'not stated'}",
+            (Label(screen.span, "the screen is stated here"),),
+            help=tuple(f"did you mean `{near}`?" for near in did_you_mean(name, names)[:1]),
+        )
+    return screen, found
+
+
+def _end(work: Work, screen: LabObject, start: tuple[float, float]) -> tuple[float, float]:
+    direction = _DIRECTIONS[str(work.step.arg("direction"))]
+    length = work.layers.call["distance"]
+    way = length.si("Length")
+    end = (start[0] + way * direction[0], start[1] + way * direction[1])
+    _, width, height = screen.size_m
+    if not (0.0 <= end[0] <= width and 0.0 <= end[1] <= height):
+        refuse(
+            "XEI0720",
+            f"a swipe of {length.text} leaves `{screen.name}`",
+            length.span or work.span,
+            f"its face is {width * 1000:g} mm wide and {height * 1000:g} mm high",
+            (Label(screen.span, "the screen is stated here"),),
+        )
+    return end
+
+
+def _standoff(work: Work, name: str) -> Setting:
+    setting = work.layers.merge(name, None) or computed_length(name, _STANDOFF_M, "clear of the screen")
+    return setting
+
+
+def _at(work: Work, screen: LabObject, point: tuple[float, float]) -> Pose:
+    """A point of the face in the base frame: x into the screen, z up along it."""
+    depth, width, _ = screen.size_m
+    return work.scene.T_base_object(screen.name) @ Pose((-depth / 2, width / 2 - point[0], point[1]))
+
+
+def _family(work: Work, screen: LabObject) -> Family:
+    """Ways to point at the face: level or from above, straight or from a side, with the tip of the jaws on
+    the point.
+    """
+    tip = hand_of(work.profile).fingertip_m
+    members: list[ToolPose] = []
+    for elevation in _ELEVATIONS_DEG:
+        for azimuth in _AZIMUTHS_DEG:
+            heading = (math.cos(math.radians(azimuth)), math.sin(math.radians(azimuth)), 0.0)
+            for turned in (False, True):
+                x, y, z = tool_axes(heading, math.radians(elevation), turned)
+                origin = (-tip * z[0], -tip * z[1], -tip * z[2])
+                name = f"{elevation:g} deg down, azimuth {azimuth:g} deg{', rolled' if turned else ''}"
+                cost = round(0.2 * (elevation + abs(azimuth)) / 100.0, 6)
+                members.append(ToolPose(name, Pose.from_axes(origin, x, y, z), cost))
+    ordered = tuple(sorted(members, key=lambda member: (member.cost, member.name)))
+    return Family(work.family_id, screen.name, ordered)
+
+
+TAP = Operation("tap", ("tap_above", "tap"), ("tap_standoff",), plan_tap)
+SWIPE = Operation(
+    "swipe", ("swipe_above", "swipe_start", "swipe_end", "swipe_away"), ("swipe_standoff",), plan_swipe
+)
