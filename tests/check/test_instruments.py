@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import product
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from tests.check.checking import BENCH, check, codes, plan_of, protocol
@@ -128,8 +128,8 @@ class Choice:
     otherwise: tuple[object, ...]
 
 
-ENDS = st.tuples(st.sampled_from(["await", "stop", "leave"]), st.sampled_from("ab"))
-LEAF = st.one_of(st.tuples(st.just("start"), st.sampled_from("ab")), ENDS)
+ENDS = st.tuples(st.sampled_from(["await", "stop", "leave"]), st.sampled_from("aaab"))
+LEAF = st.one_of(st.tuples(st.just("start"), st.sampled_from("aab")), ENDS)
 BLOCK = st.recursive(
     st.lists(LEAF, max_size=3).map(tuple),
     lambda inner: st.lists(st.one_of(LEAF, st.builds(Choice, inner, inner)), max_size=4).map(tuple),
@@ -173,6 +173,10 @@ def is_sound(way: tuple[tuple[str, str], ...]) -> bool:
     return not running
 
 
+@example((Choice((("start", "a"),), ()), ("await", "a")))
+@example((("start", "a"), Choice((("await", "a"),), ()), ("await", "a")))
+@example((("start", "a"), Choice((("await", "a"),), (("stop", "a"),))))
+@settings(max_examples=200)
 @given(BLOCK)
 def test_accepted_is_what_ends_each_start_once_on_every_way(block: tuple[object, ...]) -> None:
     params: list[str] = []
