@@ -10,7 +10,7 @@ import jsonschema
 import pytest
 
 from tests.check.checking import LAB, ROOT, plan_of, protocol
-from tests.check.test_properties import RICH
+from tests.check.test_properties import DECIDED, RICH
 from xei_lang.diagnostics import Source
 from xei_lang.ir.forms import plan_json
 from xei_lang.ir.forms.canonical import dumps
@@ -31,7 +31,7 @@ def test_every_part_of_the_form(golden: Callable[[str, str], None]) -> None:
     golden("check/rich.plan.json", form(RICH))
 
 
-@pytest.mark.parametrize("text", [RICH, protocol("wait 1 s"), protocol("")])
+@pytest.mark.parametrize("text", [RICH, DECIDED, protocol("wait 1 s"), protocol("")])
 def test_the_schema_describes_it(text: str) -> None:
     jsonschema.Draft202012Validator.check_schema(SCHEMA)
     jsonschema.validate(json.loads(form(text)), SCHEMA)

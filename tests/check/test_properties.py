@@ -40,10 +40,31 @@ protocol rich {
   unmapped "centrifuge" because "none"
 }
 """
+DECIDED = """
+procedure read_twice(tube: liquid_container, enough: Float) {
+  measure a: Float = read(object=tube) in 0.05 .. 2
+  if a < enough { measure b: Float = read(object=tube)  require b + a > 0.1 } else { stop "dense" }
+}
+protocol decided {
+  profile "lab"
+  param most: Int = 3
+  measure m: Mass = weigh(object=tube_1) in 1 g .. 5 g
+  read_twice(tube=tube_1, enough=1.5)
+  wash: repeat most times until od < 0.1 {
+    wait 1 s
+    measure od: Float = read(object=tube_2)
+    pour(source=cup_1, target=tube_2, volume=max(od, 1) * 1 mL)
+  } else { stop "did not clear" }
+  keep temperature(tube_1) <= 8 degC and cap(tube_1) == closed {
+    parallel { { wait m / (1 g) * 1 s } { wait 2 s } }
+    if m > 2 g { wait 3 s } else if m > 1.5 g { confirm "light" }
+  }
+}
+"""
 PROTOCOLS = {
     path.name: path.read_text(encoding="utf-8") for path in sorted((ROOT / "protocols").glob("*.xei"))
 }
-WORDS = sorted(set(re.findall(r'\w+|"[^"]*"|[^\s\w]', RICH + "".join(PROTOCOLS.values()))))
+WORDS = sorted(set(re.findall(r'\w+|"[^"]*"|[^\s\w]', RICH + DECIDED + "".join(PROTOCOLS.values()))))
 
 
 def test_the_rich_protocol_is_sound() -> None:
@@ -63,7 +84,7 @@ def test_the_protocols_check_clean(name: str) -> None:
 @given(st.data())
 @settings(max_examples=300, deadline=None)
 def test_no_mutation_makes_the_checker_raise(data: st.DataObject) -> None:
-    text = data.draw(st.sampled_from([RICH, *PROTOCOLS.values()]))
+    text = data.draw(st.sampled_from([RICH, DECIDED, *PROTOCOLS.values()]))
     for _ in range(data.draw(st.integers(1, 3))):
         tokens = list(re.finditer(r'\w+|"[^"]*"|[^\s\w]', text))
         token = tokens[data.draw(st.integers(0, len(tokens) - 1))]

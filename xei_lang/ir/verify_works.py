@@ -17,8 +17,8 @@ def work_problems(steps: Sequence[Step]) -> Iterator[str]:
     starts = {step.step_id: index for index, step in enumerate(steps) if step.kind == "start"}
     later: dict[str, list[Step]] = {name: [] for name in starts}
     for index, step in enumerate(steps):
-        if step.kind not in ABOUT:
-            continue
+        if step.kind not in ABOUT or (step.kind == "stop" and step.arg("message") is not None):
+            continue  # a stop with a message ends the run, and no work
         name = str(step.arg("step"))
         begun = starts.get(name)
         if begun is None or not _follows(steps, begun, index):
