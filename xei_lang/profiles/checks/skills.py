@@ -127,10 +127,6 @@ def _contract(skill: SkillSpec) -> Iterator[Diagnostic]:
 
 def _occupied(skill: SkillSpec, trees: Trees) -> Iterator[Diagnostic]:
     """Whether what an instrument holds are arguments of its skill."""
-    names = [arg.name for arg in skill.args if arg.type in ("object", "Place")]
-    for index, name in enumerate(skill.occupies):
-        if name not in names:
-            yield _no_argument(skill, name, names, trees.of_skill(skill.name, "occupies", index))
     if skill.occupies_span is not None and skill.owner != OWNER:
         yield Diagnostic(
             "XEI0623",
@@ -139,6 +135,11 @@ def _occupied(skill: SkillSpec, trees: Trees) -> Iterator[Diagnostic]:
             label=f"performed by `{skill.owner}`",
             help=("leave it out; what an arm works with is in its `requires` and `ensures`",),
         )
+        return
+    names = [arg.name for arg in skill.args if arg.type in ("object", "Place")]
+    for index, name in enumerate(skill.occupies):
+        if name not in names:
+            yield _no_argument(skill, name, names, trees.of_skill(skill.name, "occupies", index))
 
 
 def _phrases(skill: SkillSpec, trees: Trees) -> Iterator[Diagnostic]:
