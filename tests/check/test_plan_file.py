@@ -15,6 +15,7 @@ from tests.check.checking import BENCH, LAB, check_json, plan_of, protocol
 from tests.check.test_properties import PROTOCOLS, RICH
 from tests.ir.forms.test_json_schema import changed
 from tests.ir.forms.test_plan_read import without_places
+from xei_lang.check.report import MAX_ERRORS
 from xei_lang.diagnostics import Source
 from xei_lang.ir.forms import plan_json
 from xei_lang.ir.forms.canonical import dumps
@@ -163,9 +164,10 @@ WILD = [
     *({"value": 1e300, "unit": "mL"}, {"value": 0, "unit": "degC"}, {"value": -1, "unit": "s"}),
     {"measured": "x", "lower": 0, "upper": {"value": 1, "unit": "mL"}},
 ]
-ARGUMENTS = (
-    "object into on arm volume source target force for turns cool station duration text pace step".split()
-)
+ARGUMENTS = [
+    *("object", "into", "on", "arm", "volume", "source", "target", "force", "for"),
+    *("turns", "cool", "station", "duration", "text", "pace", "step"),
+]
 
 
 @settings(max_examples=200)
@@ -177,3 +179,27 @@ def test_no_argument_makes_the_checker_raise(data: st.DataObject) -> None:
     made, said = check_json(steps({"step_id": "a", "skill": skill, "args": args}))
     assert (made is None) == bool(said)
     assert all(len(item.message) < 20_000 for item in said)
+
+
+LONG = f'rack_1.slot("{"A" * 90_000}")'
+MANY = {
+    "keys that stand twice": "{" + ",".join('"a":1' for _ in range(16_000)) + "}",
+    "unknown keys": "{" + ",".join(f'"k{number}":1' for number in range(8_000)) + "}",
+    "unknown steps": steps(*(wait(f"s{number}", after=["nobody"]) for number in range(1_200))),
+    "needs and conditions": steps(
+        wait("a", needs=[f"n{number}" for number in range(4_000)], when=["n1 < 2"] * 4_000)
+    ),
+    "what is no step": steps(*([1] * 30_000)),
+    "one id": steps(*[wait("a")] * 1_200),
+    "a long place": steps({"step_id": "a", "skill": "insert", "args": {"into": LONG, "object": LONG}}),
+}
+
+
+@pytest.mark.parametrize("name", MANY)
+def test_many_mistakes_are_told_of_in_few_words(name: str) -> None:
+    made, said = check_json(MANY[name])
+    assert made is None
+    assert said
+    assert len(said) <= 2 * (MAX_ERRORS + 1)
+    assert all(len(item.message) < 1_000 for item in said)
+    assert len(said) <= MAX_ERRORS or "XEI0109" in {item.code for item in said}

@@ -14,11 +14,11 @@ from typing import Any
 from xei_lang.check.binding import CheckOptions
 from xei_lang.check.context import Context, make_context
 from xei_lang.check.plan_file.facts import check_facts
-from xei_lang.check.plan_file.in_json import in_json
+from xei_lang.check.plan_file.in_json import first_ones, in_json
 from xei_lang.check.plan_file.order import check_bounds, check_references, in_order
 from xei_lang.check.plan_file.steps import StepChecker
 from xei_lang.check.report import Reporter
-from xei_lang.diagnostics import Diagnostic, Diagnostics, Source, Sources, Span, has_errors
+from xei_lang.diagnostics import Diagnostics, Source, Sources, Span, has_errors
 from xei_lang.ir import forms
 from xei_lang.ir.forms.json_schema import Pointer, Violation, violations
 from xei_lang.ir.forms.json_tree import JsonNode, read_json
@@ -60,9 +60,9 @@ def read_plan_text(source: Source) -> tuple[PlanText | None, Diagnostics]:
     """The tree of a plan that is still to be checked, with what is wrong in its JSON or its form."""
     root, said = read_json(source)
     if root is None:
-        return None, said
+        return None, first_ones(said)
     found = tuple(violations(root, _schema(), "XEI0111"))
-    said = (*said, *(item.diagnostic for item in found))
+    said = first_ones((*said, *(item.diagnostic for item in found)))
     ids = _ids(root)
     named = root.get("profile")
     profile = (str(named.value), named.span) if named is not None and named.kind == "string" else None
@@ -88,14 +88,10 @@ def check_plan(
     order = in_order(plan.steps, text.root, reporter)
     steps = StepChecker(context, source, text.root).check(plan, order)
     found = (*said, *reporter.diagnostics, *context.reporter.diagnostics)
-    diagnostics = tuple(sorted((in_json(item, source) for item in found), key=_place))
+    diagnostics = first_ones(in_json(item, source) for item in found)
     if has_errors(diagnostics):
         return None, diagnostics
     return replace(plan, profile=plan.profile or profile.name, steps=steps), diagnostics
-
-
-def _place(diagnostic: Diagnostic) -> tuple[int, str]:
-    return diagnostic.span.start if diagnostic.span else 0, diagnostic.code
 
 
 def _argument_types(context: Context) -> ArgumentType:

@@ -24,7 +24,8 @@ from xei_lang.syntax.ast import (
 )
 
 _NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
-_LONGEST_NAME = 200
+_LONGEST = 200
+"""Of a text that should name something, no more is looked at, nor quoted in a message."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -62,9 +63,10 @@ def _text(text: str, type_: str | None, span: Span) -> Expression | None:
             return QuantityLit(parse_quantity(text), span)
         except QuantityError:
             return None
-    place = PLACE.fullmatch(text)
-    if type_ == "String" or len(text) > _LONGEST_NAME:
+    if type_ == "String":
         return StringLit(text, span)
+    text = text[:_LONGEST]
+    place = PLACE.fullmatch(text)
     if place is not None and _NAME.fullmatch(place["object"]):
         return _place(place, span)
     return Name(text, span) if _NAME.fullmatch(text) else StringLit(text, span)

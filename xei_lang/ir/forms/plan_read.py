@@ -13,7 +13,7 @@ from typing import cast, get_args
 
 from xei_lang.diagnostics import Diagnostics
 from xei_lang.ir.forms.json_tree import JsonNode
-from xei_lang.ir.forms.plan_values import ValueReader, named_steps
+from xei_lang.ir.forms.plan_values import Needs, ValueReader, named_steps
 from xei_lang.ir.skill_plan import (
     Argument,
     Call,
@@ -94,9 +94,10 @@ class _PlanReader:
         kind, name = step_kind(node), _text(node, "skill")
         skill = name if kind in WITH_SKILL else ""
         defaults = frozenset(_texts(node, "defaults"))
+        needs = {name: place for place, name in enumerate(_texts(node, "needs"))}
         args = node.get("args")
         arguments = tuple(
-            self._argument(skill or kind, key, item, key in defaults, tuple(_texts(node, "needs")))
+            self._argument(skill or kind, key, item, key in defaults, needs)
             for key, item in (args.items.items() if args else ())
         )
         after = node.get("after")
@@ -111,17 +112,15 @@ class _PlanReader:
             before if after is None else tuple(_texts(node, "after")),
             _text(node, "branch"),
             tuple(int(cast("int", item.value)) for item in _elements(node, "turn")),
-            _conditions(node, "when"),
+            _conditions(node, "when", needs),
             tuple(sorted(_texts(node, "resources"))),
             self.values.facts(node.get("state_before")),
             tuple(Call(_text(item, "procedure"), item.span) for item in _elements(node, "origin")),
-            _conditions(node, "keep"),
+            _conditions(node, "keep", needs),
             tuple(_texts(node, "needs")),
         )
 
-    def _argument(
-        self, skill: str, name: str, node: JsonNode, by_default: bool, needs: tuple[str, ...]
-    ) -> Argument:
+    def _argument(self, skill: str, name: str, node: JsonNode, by_default: bool, needs: Needs) -> Argument:
         own = STATEMENTS.get(skill)
         type_ = own[1] if own and own[0] == name else self.type_of(skill, name)
         value = self.values.value(node, type_, needs)
@@ -129,9 +128,8 @@ class _PlanReader:
         return Argument(name, value, type_ or _own_type(value), source, node.span)
 
 
-def _conditions(node: JsonNode, key: str) -> tuple[Condition, ...]:
+def _conditions(node: JsonNode, key: str, needs: Needs) -> tuple[Condition, ...]:
     """Conditions, each with those of the needed steps that its text names."""
-    needs = tuple(_texts(node, "needs"))
     texts = [(str(item.value), item.span) for item in _elements(node, key)]
     return tuple(Condition(text, named_steps(text, needs), span) for text, span in texts)
 

@@ -6,7 +6,9 @@ The form says `"tube_1"` of an object, a word and a text alike, so an argument's
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from fractions import Fraction
+from types import MappingProxyType
 from typing import cast
 
 from xei_lang.diagnostics import Diagnostic
@@ -24,8 +26,14 @@ from xei_lang.quantity import (
 
 PLACE = re.compile(r"(?P<object>\w+)\.(?P<kind>slot|spot)\(\"(?P<key>.+)\"\)", re.DOTALL)
 _EXACT = re.compile(r"-?[0-9]{1,300}/0*[1-9][0-9]{0,299}")
+_STEP_ID = re.compile(r"[A-Za-z_]\w*(?:\[\d+\]|#\d+|~\d+|\.[A-Za-z_]\w*)*")
 _HANDS = ("left", "right", "either")
 _NOTHING = "nothing"
+
+
+Needs = Mapping[str, int]
+"""The measuring steps that a step needs, by their ids, each with its place among them."""
+_NO_NEEDS: Needs = MappingProxyType({})
 
 
 class ValueReader:
@@ -35,7 +43,7 @@ class ValueReader:
         self.found: list[Diagnostic] = []
 
     def value(  # noqa: PLR0911 one return for each type
-        self, node: JsonNode, type_: str | None, needs: tuple[str, ...] = ()
+        self, node: JsonNode, type_: str | None, needs: Needs = _NO_NEEDS
     ) -> Value:
         """The value where a type is expected; as it stands where it is not of that type, or there is none.
 
@@ -77,7 +85,7 @@ class ValueReader:
             self._wrong(error, exact or node, "an exact number")
             return None
 
-    def _measured(self, node: JsonNode, needs: tuple[str, ...]) -> Value:
+    def _measured(self, node: JsonNode, needs: Needs) -> Value:
         ends = [self.value(node.items[key], None) for key in ("lower", "upper")]
         lower, upper = (end if isinstance(end, (Quantity, int, float)) else 0 for end in ends)
         formula = str(node.items["measured"].value)
@@ -118,9 +126,10 @@ class ValueReader:
         self.found.append(Diagnostic("XEI0111", said, node.span, error.reason[:200], help=help_))
 
 
-def named_steps(text: str, needs: tuple[str, ...]) -> tuple[str, ...]:
-    """Those of the steps that an expression of the plan names by their ids."""
-    return tuple(step for step in needs if re.search(rf"(?<![\w.#\]]){re.escape(step)}(?![\w.#\[])", text))
+def named_steps(text: str, needs: Needs) -> tuple[str, ...]:
+    """Those of the steps that an expression of the plan names by their ids, in the order of the steps."""
+    named = {name for name in _STEP_ID.findall(text) if name in needs}
+    return tuple(sorted(named, key=needs.__getitem__))
 
 
 def place(text: str) -> PlaceRef:
