@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.check.checking import BENCH, LAB, check_json, plan_of, protocol
-from tests.check.test_properties import PROTOCOLS, RICH
+from tests.check.test_properties import DECIDED, PROTOCOLS, RICH
 from tests.ir.forms.test_json_schema import changed
 from tests.ir.forms.test_plan_read import without_places
 from xei_lang.check.report import MAX_ERRORS
@@ -21,7 +21,8 @@ from xei_lang.ir.forms import plan_json
 from xei_lang.ir.forms.canonical import dumps
 from xei_lang.ir.verify_plan import verify_plan
 
-WRITTEN = {**{name: (text, BENCH) for name, text in PROTOCOLS.items()}, "rich": (RICH, LAB)}
+IN_THE_LAB = {"rich": (RICH, LAB), "decided": (DECIDED, LAB)}
+WRITTEN = {**{name: (text, BENCH) for name, text in PROTOCOLS.items()}, **IN_THE_LAB}
 SLOT = 'rack_2.slot("A1")'
 
 
@@ -53,7 +54,7 @@ def test_what_a_step_leaves_out_is_what_the_protocol_makes(name: str) -> None:
     text, folder = WRITTEN[name]
     full = json.loads(form(text, folder))
     for call in full["skill_calls"]:
-        for key in set(call) - {"step_id", "skill", "owner", "args", "line", "kind", "after"}:
+        for key in set(call) - {"step_id", "skill", "owner", "args", "line", "kind", "after", "needs"}:
             del call[key]
     plan, said = check_json(json.dumps({key: full[key] for key in full if key != "initial_state"}), folder)
     assert said == ()

@@ -16,6 +16,8 @@ def check_statement(kind: StepKind, node: JsonNode, context: Context, state: Sta
     """Report arguments that a kind of step does not have, the one that is missing, a wrong value of it."""
     name, type_ = STATEMENTS[kind]
     args = node.get("args")
+    if kind == "stop" and args is not None and "message" in args.keys:
+        name, type_ = "message", "String"  # it ends the run, and no instrument's work
     for other, span in args.keys.items() if args else ():
         if other != name:
             message = f"`{kind}` has no argument `{other[:80]}`"

@@ -9,6 +9,7 @@ from xei_lang.check.calls import CheckedCall
 from xei_lang.check.context import Context
 from xei_lang.check.effects import apply_effects, resources_of
 from xei_lang.check.initial import initial_state
+from xei_lang.check.measure import LOWER, UPPER
 from xei_lang.check.plan_file.expressions import AsExpression
 from xei_lang.check.plan_file.statements import check_statement
 from xei_lang.check.report import listed
@@ -66,6 +67,8 @@ class StepChecker:
         self._resources_agree(step, node, skill, checked)
         said = {argument.name: argument for argument in step.args}
         arguments = tuple(_argument(found, said.get(found.name)) for found in checked.arguments)
+        limits = tuple(item for item in step.args if step.kind == "measure" and item.name in (LOWER, UPPER))
+        arguments = (*arguments, *limits)
         apply_effects(checked.effects, values, self._state)
         return replace(
             step,
@@ -85,6 +88,8 @@ class StepChecker:
         for end in ("upper", "lower") if measured else ("lower",):
             given: list[Arg] = []
             for name, item in args.items.items() if args else ():
+                if step.kind == "measure" and name in (LOWER, UPPER):
+                    continue  # the limits of the reading, which are no arguments of its skill
                 value = AsExpression(end).of(item, self._types.get((callee.id, name)))
                 assert args is not None
                 if value is None:
