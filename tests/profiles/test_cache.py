@@ -148,3 +148,15 @@ print(*[name for name in {HEAVY!r} if name in sys.modules])
     )
     assert "pydantic" in cold.stdout
     assert warm.stdout.strip() == ""
+
+
+def test_a_change_behind_a_link_is_seen(lab, tmp_path):
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    (elsewhere / "robot.urdf").write_text("<robot/>", encoding="utf-8")
+    (lab / "linked").symlink_to(elsewhere)
+    (lab / "itself").symlink_to(lab)
+    before = compiled.key_of(read_folder(lab))
+    assert before == compiled.key_of(read_folder(lab))
+    (elsewhere / "robot.urdf").write_text("<robot />", encoding="utf-8")
+    assert compiled.key_of(read_folder(lab)) != before

@@ -70,7 +70,7 @@ def command(
 ) -> None:  # fmt: skip
     """Check protocols: names, skills, arguments, units, roles, objects.
 
-    A folder stands for all .xei files below it.
+    A folder stands for all .xei files below it; a .json file is checked as a plan from elsewhere.
 
     \b
     Examples:

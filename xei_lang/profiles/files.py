@@ -31,9 +31,18 @@ class ProfileFiles:
 
 
 def read_folder(folder: Path) -> ProfileFiles:
-    """Hash every file below the folder but hidden ones and Python's caches; raises OSError."""
+    """Hash every file below the folder but hidden ones and Python's caches; raises OSError.
+
+    Links to folders are followed, as reading follows them, but no folder is gone through twice.
+    """
     hashes: list[tuple[str, str]] = []
-    for parent, folders, names in os.walk(folder, onerror=_raise):
+    seen: set[str] = set()
+    for parent, folders, names in os.walk(folder, onerror=_raise, followlinks=True):
+        real = os.path.realpath(parent)
+        if real in seen:
+            folders.clear()
+            continue
+        seen.add(real)
         folders[:] = [name for name in folders if name != "__pycache__" and not name.startswith(".")]
         for name in names:
             path = os.path.join(parent, name)
