@@ -11,7 +11,9 @@ import pytest
 import yaml
 from click.testing import CliRunner, Result
 
+from tests.cli.pictures import image_of_the_table
 from tests.cli.xei import PROFILES, xei
+from tests.world.calibration.recorded import recorded
 from xei_lang.cli.schema_command import FORMS, command
 from xei_lang.cli.schema_command import PROFILES as PROFILE_FILES
 
@@ -55,6 +57,9 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[Any]]:
         for name in ("plan", "goals", "timed", "scene", "manifest")
     }
     lines = (folder / "trace.jsonl").read_text(encoding="utf-8").splitlines()
+    image_of_the_table(folder / "bench.png")
+    seen = xei("perception", "detect", "bench.png", "--format", "json", cwd=folder)
+    found |= {"tags": [json.loads(seen.out)], "recording": [recorded(1, 6), recorded(1, 6, form="poses")]}
     found["doctor"] = [json.loads(xei("doctor", "--format", "json", cwd=folder).out)]
     return {"check": [json.loads(checked.out)], "trace": [json.loads(line) for line in lines], **found}
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import sys
-from pathlib import Path
 
 import click
 
 from xei_lang.cli.exit_codes import INPUT_HAS_ERRORS
+from xei_lang.cli.lab import profile_folder
 from xei_lang.cli.options import wants_color
 from xei_lang.cli.report import exit_code, show, with_quoted
 from xei_lang.diagnostics import Diagnostic, Diagnostics, has_errors
@@ -15,7 +15,6 @@ from xei_lang.doctor import Blocker, deployment_blockers
 from xei_lang.doctor.faults import fault_blockers
 from xei_lang.profiles.compiled import default_cache
 from xei_lang.profiles.load import load_profile
-from xei_lang.profiles.lookup import find_profile, missing_profile, only_profile
 
 
 @click.command("doctor")
@@ -32,7 +31,7 @@ def command(*, profile: str | None, form: str, quiet: bool, color: str) -> None:
 
     Example: xei doctor --profile openarm_bench
     """
-    folder, missing = _folder(profile)
+    folder, missing = profile_folder(profile)
     if folder is None:
         show(missing, {}, wants_color(color))
         sys.exit(exit_code(missing) or INPUT_HAS_ERRORS)
@@ -53,14 +52,3 @@ def _rendered(form: str, name: str, blockers: tuple[Blocker, ...]) -> str:
         return dumps(to_json(blockers))
     quoted: Diagnostics = tuple(Diagnostic(item.code, item.item, item.span) for item in blockers)
     return to_text(name, blockers, with_quoted(quoted, {}))
-
-
-def _folder(named: str | None) -> tuple[Path | None, Diagnostics]:
-    """The folder of the profile that is meant: by its name or path, or the only one that there is."""
-    here = Path.cwd()
-    if named is None:
-        found = only_profile(here)
-        return found, () if found else (missing_profile("", here, None, None),)
-    path = Path(named)
-    found = find_profile(path.name, here, path if path.exists() and len(path.parts) > 1 else None)
-    return found, () if found else (missing_profile(named, here, None, None),)

@@ -18,6 +18,8 @@ COMMANDS = {
     "fmt": "Format protocols.",
     "fix": "Apply the fixes of diagnostics.",
     "doctor": "Say what blocks a real deployment.",
+    "perception": "Find tags in an image, and where they say the tables stand.",
+    "calibrate": "Solve a camera's place from a recording.",
     "explain": "Say more about a diagnostic's code.",
     "schema": "Print the JSON Schema of a form.",
 }

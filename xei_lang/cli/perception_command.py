@@ -56,9 +56,9 @@ def _detect(
     image: Path, lab: Profile, camera: Camera, form: str, *, quiet: bool, colored: bool
 ) -> Diagnostics:
     optional("xei_lang.world.perception.look", colored)
+    from xei_lang.world.perception.findings import findings, to_json, to_text
     from xei_lang.world.perception.image import decode_image
     from xei_lang.world.perception.look import look
-    from xei_lang.world.perception.findings import findings, to_json, to_text
 
     if not quiet:
         click.echo(f"looking through `{camera.name}` at tags of {lab.calibration.apriltags.family}", err=True)

@@ -22,6 +22,8 @@ FORMS: Mapping[str, tuple[str, str]] = MappingProxyType(
         "manifest": ("export/manifest.schema.json", "`manifest.json`: what a bundle was made from"),
         "doctor": ("doctor/doctor.schema.json", "what `xei doctor --format json` prints"),
         "trace": ("ir/forms/trace.schema.json", "a line of what `xei run --trace` writes"),
+        "recording": ("world/calibration/recording.schema.json", "what `xei calibrate` reads"),
+        "tags": ("world/perception/tags.schema.json", "what `xei perception detect --format json` prints"),
     }
 )
 """Forms whose schema is a file of the package, and what they are."""

@@ -44,7 +44,7 @@ class SampleModel(Model):
     """One still: all joints that move the camera or the target, and either tags or a pose."""
 
     joints: dict[Text, float]
-    tags: Annotated[list[SeenTagModel], Field(max_length=1000)] = []
+    tags: Annotated[list[SeenTagModel], Field(max_length=1000)] = Field(default=[])
     pose: SeenPoseModel | None = None
 
 
@@ -60,5 +60,5 @@ class RecordingModel(Model):
     recorded_on: Annotated[str, Field(pattern=r"^[0-9]{4}-[0-9]{2}-[0-9]{2}$")]
     camera: Name
     target: Name
-    board: Annotated[list[BoardTagModel], Field(max_length=1000)] = []
+    board: Annotated[list[BoardTagModel], Field(max_length=1000)] = Field(default=[])
     samples: Annotated[list[SampleModel], Field(min_length=1, max_length=10000)]

@@ -32,7 +32,9 @@ class Board:
 def see_board(
     tags: Sequence[SeenTagModel], board: Board, index: int, root: Node
 ) -> tuple[Array, Array, Array] | Diagnostic:
-    """`T_optical_board` (4, 4), the corners (n, 3) on the board, and the rays (n, 2) that they were seen at."""
+    """`T_optical_board` (4, 4), the corners (n, 3) on the board, and the rays (n, 2) that they were seen
+    at.
+    """
     ids = [tag.id for tag in tags]
     for place, number in enumerate(ids):
         span = root.span_of("samples", index, "tags", place, "id")

@@ -36,9 +36,9 @@ def carried(profile: Profile, frame: str) -> Carried | None:
 
 
 def joints_between(robot: RobotDescription, first: str, second: str) -> tuple[RobotJoint, ...]:
-    """The joints that move one link against another, in the description's order; mimics by what they follow."""
+    """The joints that move one link against another, in the description's order; of a mimic its model."""
     ways = [_way(robot, first), _way(robot, second)]
-    moving = {name for name in ways[0] ^ ways[1]}
+    moving = ways[0] ^ ways[1]
     by_name = {joint.name: joint for joint in robot.joints}
     sources = {by_name[name].mimic or name for name in moving if by_name[name].kind != "fixed"}
     return tuple(joint for joint in robot.joints if joint.name in sources)

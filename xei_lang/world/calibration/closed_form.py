@@ -7,12 +7,16 @@ squares. The rotation is the orthogonal factor by SVD, so that no inverse square
 
 from __future__ import annotations
 
+import importlib
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
-from scipy.spatial.transform import Rotation
+from numpy.typing import NDArray
 
 from xei_lang.world.perception.optics import Array
+
+Rotation: Any = importlib.import_module("scipy.spatial.transform").Rotation  # ships no type information
 
 _MAX_ANGLE_RAD = np.radians(165.0)
 """Beyond it the sign of a rotation's axis is at the mercy of noise."""
@@ -34,14 +38,15 @@ def rotation_spread(A: Array) -> Array:
     """The singular values (3,) of the rotations between poses (n, 4, 4), as root mean squares in rad."""
     first, second = _pairs(A)
     turns = _turns(np.linalg.inv(A[second]) @ A[first])
-    return np.linalg.svd(turns, compute_uv=False) / np.sqrt(len(turns))
+    spread: Array = np.linalg.svd(turns, compute_uv=False) / np.sqrt(len(turns))
+    return spread
 
 
 def park_martin(A: Array, B: Array) -> Start:
     """X and Z from poses (n, 4, 4); the rotations must span two axes, which `rotation_spread` tells."""
     first, second = _pairs(A)
-    left = np.linalg.inv(A[second]) @ A[first]
-    right = B[second] @ np.linalg.inv(B[first])
+    left: Array = np.linalg.inv(A[second]) @ A[first]
+    right: Array = B[second] @ np.linalg.inv(B[first])
     alpha, beta = _turns(left), _turns(right)
     usable = np.linalg.norm(alpha, axis=1) < _MAX_ANGLE_RAD
     if usable.sum() >= 3:
@@ -55,7 +60,7 @@ def park_martin(A: Array, B: Array) -> Start:
     return Start(X, _mean_pose(A @ X @ B), rotation_spread(A))
 
 
-def _pairs(A: Array) -> tuple[Array, Array]:
+def _pairs(A: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Indices of all pairs of samples, or of evenly many of them where there are too many."""
     first, second = np.triu_indices(len(A), 1)
     step = max(1, len(first) // _MAX_PAIRS)

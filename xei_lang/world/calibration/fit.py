@@ -1,4 +1,4 @@
-"""Weighted least squares over X and Z, with the noise estimated from the residuals and the covariance of X."""
+"""Weighted least squares over X and Z, with the noise estimated from residuals, and the covariance of X."""
 
 from __future__ import annotations
 
@@ -43,8 +43,8 @@ class Fit:
         return int(np.argmax([(part**2).mean() for part in np.split(weighted, ends)]))
 
 
-def fit(samples: Sequence[Sample], X: Array, Z: Array, focal_px: float) -> Fit:
-    """The fit of all samples, from a start.
+def fit(samples: Sequence[Sample], start: tuple[Array, Array], focal_px: float) -> Fit:
+    """The fit of all samples, from a start `(X, Z)`.
 
     Position and rotation are weighted by their own noise, which is estimated from the residuals and their
     redundancy in turn with the fit (Foerstner's variance components).
@@ -52,10 +52,12 @@ def fit(samples: Sequence[Sample], X: Array, Z: Array, focal_px: float) -> Fit:
     linear, kinds, rows = residuals_of(samples, focal_px)
     names = sorted(set(kinds.tolist()))
     noise = dict.fromkeys(names, 1.0)
-    for _ in range(_ROUNDS):
+    poses = start
+    errors, jacobian = linear(*poses)
+    for _ in range(_ROUNDS if len(names) > 1 else 1):
         weights = np.array([1.0 / noise[kind] for kind in kinds])
-        X, Z = _solve(linear, X, Z, weights)
-        errors, jacobian = linear(X, Z)
+        poses = _solve(linear, poses, weights)
+        errors, jacobian = linear(*poses)
         weighted = jacobian * weights[:, None]
         inverse = np.linalg.pinv(weighted.T @ weighted)
         leverage = np.einsum("ij,jk,ik->i", weighted, inverse, weighted)
@@ -63,11 +65,9 @@ def fit(samples: Sequence[Sample], X: Array, Z: Array, focal_px: float) -> Fit:
             own = kinds == name
             redundancy = max(float((1.0 - leverage[own]).sum()), 1.0)
             noise[name] = max(float(np.sqrt((errors[own] ** 2).sum() / redundancy)), _FLOOR[name])
-        if len(names) == 1:
-            break
     weighted = jacobian / np.array([noise[kind] for kind in kinds])[:, None]
-    covariance = np.linalg.pinv(weighted.T @ weighted)[:6, :6]
-    return Fit(X, Z, covariance, noise, errors, kinds, rows)
+    covariance: Array = np.linalg.pinv(weighted.T @ weighted)[:6, :6].astype(np.float64)
+    return Fit(*poses, covariance, noise, errors, kinds, rows)
 
 
 def residuals_of(samples: Sequence[Sample], focal_px: float) -> tuple[Linear, Array, tuple[int, ...]]:
@@ -79,9 +79,9 @@ def residuals_of(samples: Sequence[Sample], focal_px: float) -> tuple[Linear, Ar
     return pose_residuals(samples), np.tile(one, len(samples)), (6,) * len(samples)
 
 
-def _solve(linear: Linear, X: Array, Z: Array, weights: Array) -> tuple[Array, Array]:
+def _solve(linear: Linear, poses: tuple[Array, Array], weights: Array) -> tuple[Array, Array]:
     """Levenberg's damped Gauss-Newton until steps are within rounding."""
-    errors, jacobian = linear(X, Z)
+    errors, jacobian = linear(*poses)
     cost, damping = float(((errors * weights) ** 2).sum()), 1e-9
     for _ in range(_ITERATIONS):
         weighted = jacobian * weights[:, None]
@@ -89,16 +89,17 @@ def _solve(linear: Linear, X: Array, Z: Array, weights: Array) -> tuple[Array, A
         stacked = np.vstack([weighted / scale, np.sqrt(damping) * np.eye(12)])
         values = np.concatenate([-errors * weights, np.zeros(12)])
         step = np.linalg.lstsq(stacked, values, rcond=None)[0] / scale
-        new_X, new_Z = moved(X, step[:6]), moved(Z, step[6:])
-        new_errors, new_jacobian = linear(new_X, new_Z)
+        ahead = moved(poses[0], step[:6]), moved(poses[1], step[6:])
+        new_errors, new_jacobian = linear(*ahead)
         new_cost = float(((new_errors * weights) ** 2).sum())
         if new_cost <= cost:
-            X, Z, errors, jacobian, cost = new_X, new_Z, new_errors, new_jacobian, new_cost
+            is_done = float(np.abs(step).max()) < _DONE or cost - new_cost <= 1e-15 * cost
+            poses, errors, jacobian, cost = ahead, new_errors, new_jacobian, new_cost
             damping = max(damping * 0.1, 1e-15)
-            if float(np.abs(step).max()) < _DONE:
+            if is_done:
                 break
         else:
             damping *= 100.0
             if damping > 1e3:
                 break
-    return X, Z
+    return poses

@@ -31,8 +31,8 @@ _UNITS = {"position": (1e3, "mm"), "rotation": (180.0 / np.pi, "deg"), "pixel": 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class HandEye:
-    """`T_parent_camera` in the camera's body frame, with the covariance (6, 6) of a small motion on its right:
-    translation (m) before rotation (rad).
+    """`T_parent_camera` in the camera's body frame, with the covariance (6, 6) of a small motion on its
+    right: translation (m) before rotation (rad).
 
     `noise` is the standard deviation of a residual, by kind: `position` (m) and `rotation` (rad), or `pixel`.
     `spread_rad` (3,) is the root mean square rotation between samples along its principal axes.
@@ -119,7 +119,9 @@ def _unobserved(spread: Array) -> Unsolved | None:
         message = f"the samples hardly turn: {shown} deg root mean square about the principal axes"
         return Unsolved("no_rotation", message, _TURN)
     if spread[1] < MIN_SPREAD_RAD:
-        message = f"the samples turn about one axis only: {shown} deg root mean square about the principal axes"
+        message = (
+            f"the samples turn about one axis only: {shown} deg root mean square about the principal axes"
+        )
         return Unsolved("one_axis", message, _TURN)
     return None
 
@@ -129,7 +131,7 @@ _TURN = "record samples in which the wrist turns by 30 deg or more about two dif
 
 def _fit(samples: Sequence[Sample], focal_px: float) -> Fit:
     start = park_martin(np.array([one.A for one in samples]), np.array([one.B for one in samples]))
-    return fit(samples, start.X, start.Z, focal_px)
+    return fit(samples, (start.X, start.Z), focal_px)
 
 
 def _without_outliers(samples: list[Sample], focal_px: float) -> tuple[Fit | None, list[int]]:

@@ -69,7 +69,9 @@ def read_recording(source: Source, profile: Profile) -> tuple[Recording | None, 
     usable = tuple(sample for sample in samples if sample is not None)
     if len({sample.is_pixels for sample in usable}) > 1:
         where = root.span_of("samples")
-        found.append(Diagnostic(_CODE, "some samples have tags and some a pose", where, help=("keep one kind",)))
+        found.append(
+            Diagnostic(_CODE, "some samples have tags and some a pose", where, help=("keep one kind",))
+        )
     if found:
         return None, tuple(found)
     return Recording(model.recorded_on, setting.camera, setting.frame, model.target, usable), ()
@@ -86,7 +88,9 @@ def _setting(model: RecordingModel, profile: Profile, root: Node, found: list[Di
     calibration = profile.calibration
     camera = next((one for one in calibration.cameras if one.name == model.camera), None)
     if camera is None:
-        found.append(_unknown("camera", model.camera, [one.name for one in calibration.cameras], root, "camera"))
+        found.append(
+            _unknown("camera", model.camera, [one.name for one in calibration.cameras], root, "camera")
+        )
         return None
     frame = next((one for one in calibration.frames if one.name == camera.frame), None)
     parent = carried(profile, frame.parent) if frame else None
@@ -124,28 +128,32 @@ def _sample(
         x, y, z, w = model.pose.quaternion_xyzw
         norm = math.sqrt(x * x + y * y + z * z + w * w)
         px, py, pz = model.pose.position_m
-        B = matrix_of(T_CAMERA_OPTICAL @ Pose((px, py, pz), (x / norm, y / norm, z / norm, w / norm)))
-        return Sample(index + 1, A, B, np.empty((0, 3)), np.empty((0, 2)))
-    seen = see_board(model.tags, setting.board, index, root)
-    if isinstance(seen, Diagnostic):
-        found.append(seen)
+        seen = Pose((px, py, pz), (x / norm, y / norm, z / norm, w / norm))
+        empty = np.empty((0, 3)), np.empty((0, 2))
+        return Sample(index + 1, A, matrix_of(T_CAMERA_OPTICAL @ seen), *empty)
+    board = see_board(model.tags, setting.board, index, root)
+    if isinstance(board, Diagnostic):
+        found.append(board)
         return None
-    T_optical_board, points, rays = seen
-    B = matrix_of(T_CAMERA_OPTICAL) @ T_optical_board
-    return Sample(index + 1, A, B, points, rays)
+    T_optical_board, points, rays = board
+    return Sample(index + 1, A, matrix_of(T_CAMERA_OPTICAL) @ T_optical_board, points, rays)
 
 
 def _joints(
     index: int, model: SampleModel, setting: _Setting, root: Node, found: list[Diagnostic]
 ) -> dict[str, float]:
     where = ("samples", index, "joints")
-    movable = [joint.name for joint in setting.profile.robot.joints if joint.kind != "fixed" and not joint.mimic]
+    movable = [
+        joint.name for joint in setting.profile.robot.joints if joint.kind != "fixed" and not joint.mimic
+    ]
     for name in model.joints:
         if name not in movable:
             near = did_you_mean(name, movable)
             help_ = f"did you mean `{near[0]}`?" if near else "the joints are " + ", ".join(movable)
             message = f"the robot has no joint `{name}`"
-            found.append(Diagnostic(_CODE, message, root.key_span(*where, name), "unknown joint", help=(help_,)))
+            found.append(
+                Diagnostic(_CODE, message, root.key_span(*where, name), "unknown joint", help=(help_,))
+            )
     for joint in setting.moving:
         value = model.joints.get(joint.name)
         if value is None:

@@ -92,7 +92,9 @@ def _corner_function() -> Any:
 
 
 def _at_zero(inputs: tuple[Any, ...], d: Any, errors: Any) -> Any:
-    outputs = [casadi.substitute(value, d, casadi.DM.zeros(12)) for value in (errors, casadi.jacobian(errors, d))]
+    outputs = [
+        casadi.substitute(value, d, casadi.DM.zeros(12)) for value in (errors, casadi.jacobian(errors, d))
+    ]
     return casadi.Function("linear", list(inputs), outputs)
 
 

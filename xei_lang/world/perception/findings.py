@@ -17,7 +17,9 @@ from xei_lang.world.perception.refusal import Refused
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FrameFinding:
-    """A frame of the layout: its anchor beside the profile (None where no station grounds it), or why none."""
+    """A frame of the layout: its anchor beside the profile (None where no station grounds it), or why
+    there is none.
+    """
 
     frame: str
     anchor: FrameAnchor | Refused
@@ -61,7 +63,11 @@ def findings(seen: Sighting | Refused, profile: Profile, camera: Camera) -> Find
 def to_json(found: Findings, image: str, camera: str) -> Json:
     """The form that `xei schema tags` describes."""
     tags = [
-        {"id": tag.id, "frame": frame or None, "corners_px": [[float(u), float(v)] for u, v in tag.corners_px]}
+        {
+            "id": tag.id,
+            "frame": frame or None,
+            "corners_px": [[float(u), float(v)] for u, v in tag.corners_px],
+        }
         for tag, frame in found.tags
     ]
     refused = found.refused
@@ -101,8 +107,8 @@ def _anchor_lines(frame: str, anchor: FrameAnchor, verified: Verified | None) ->
         *lines,
         f"  in robot_base   {pose_text(verified.T_base_frame)}",
         f"  expected there  {pose_text(verified.expected_T_base_frame)}",
-        f"  {1e3 * apart.position_m:.2f} mm and {math.degrees(apart.rotation_rad):.3f} deg apart, {verdict} the "
-        f"tolerance of {1e3 * stated.position_tolerance_m:g} mm and "
+        f"  {1e3 * apart.position_m:.2f} mm and {math.degrees(apart.rotation_rad):.3f} deg apart, {verdict} "
+        f"the tolerance of {1e3 * stated.position_tolerance_m:g} mm and "
         f"{math.degrees(stated.rotation_tolerance_rad):g} deg, from {verified.station}",
     ]
 
@@ -146,16 +152,20 @@ def _frame_json(one: FrameFinding) -> Json:
 def _off(frame: str, verified: Verified) -> Diagnostic:
     apart, stated = verified.deviation, verified.stated
     message = (
-        f"`{frame}` stands {1e3 * apart.position_m:.1f} mm and {math.degrees(apart.rotation_rad):.2f} deg from "
-        f"where the profile says"
+        f"`{frame}` stands {1e3 * apart.position_m:.1f} mm and {math.degrees(apart.rotation_rad):.2f} deg "
+        f"from where the profile says"
     )
-    allowed = f"{1e3 * stated.position_tolerance_m:g} mm and {math.degrees(stated.rotation_tolerance_rad):g} deg"
+    allowed = (
+        f"{1e3 * stated.position_tolerance_m:g} mm and {math.degrees(stated.rotation_tolerance_rad):g} deg"
+    )
     measured = pose_text(verified.T_parent_found)
     return Diagnostic(
         "XEI0683",
         message,
         notes=(f"its tolerance is {allowed}; the base is taken to stand at `{verified.station}`",),
-        help=(f"if the robot stands there and its camera is calibrated, write in `frames.{frame}`: {measured}",),
+        help=(
+            f"if the robot stands there and its camera is calibrated, write in `frames.{frame}`: {measured}",
+        ),
     )
 
 

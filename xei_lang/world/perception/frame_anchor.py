@@ -18,8 +18,14 @@ from xei_lang.world.perception.joint_pose import JointPose, joint_pose, size_rat
 from xei_lang.world.perception.optics import T_CAMERA_OPTICAL, Array, Optics, matrix_of, pose_of
 from xei_lang.world.perception.refusal import Refused
 
-AMBIGUITY = 2.0
-"""How many times worse the second solution of a planar target must fit (Schweighofer and Pinz, PAMI 2006)."""
+DOUBT_PX = 0.1
+"""Error of a corner's coordinate that is reckoned with where a wrong tilt would fit nearly as well as the
+right one (Schweighofer and Pinz, PAMI 28(12), 2006): light and print move corners that agree with each other.
+"""
+MIN_EVIDENCE = 25.0
+"""How much larger the second solution's sum of squares must be, in variances of `DOUBT_PX`: five sigma."""
+MAX_TILT_STD_RAD = float(np.radians(1.0))
+"""A frame whose tilt is known worse than this, at `DOUBT_PX`, is not anchored."""
 SIZE_SLACK = 0.02
 """A tag's size may be off by this, or by three of its standard deviations, before it is called wrong."""
 
@@ -133,10 +139,12 @@ def _doubt(
     if abs(ratio - 1.0) > max(SIZE_SLACK, 3.0 * deviation):
         stated = 1e3 * tags[0].size_m
         message = (
-            f"the tags of `{frame}` look {100 * ratio:.1f} % as large as the profile says, as {stated:g} mm is "
-            f"{stated * ratio:.1f} mm"
+            f"the tags of `{frame}` look {100 * ratio:.1f} % as large as the profile says, as {stated:g} mm "
+            f"is {stated * ratio:.1f} mm"
         )
-        return Refused("wrong_tag_size", message, "measure the black square's edge and write it as `size`", ids)
+        return Refused(
+            "wrong_tag_size", message, "measure the black square's edge and write it as `size`", ids
+        )
     if pose.rms_px > layout.residual_px:
         errors = np.sqrt((pose.errors_px**2).sum(axis=1).reshape(-1, 4).mean(axis=1))
         worst = ids[int(errors.argmax())]
@@ -145,10 +153,19 @@ def _doubt(
             f"{layout.residual_px:g} px are allowed; tag {worst} is the worst, {errors.max():.2f} px off"
         )
         return Refused("residual", message, _LAYOUT, ids)
-    if pose.other_rms_px < AMBIGUITY * pose.rms_px:
+    noise = max(pose.noise_px, DOUBT_PX)
+    evidence = len(pose.errors_px) * (pose.other_rms_px**2 - pose.rms_px**2) / noise**2
+    if evidence < MIN_EVIDENCE:
         message = (
             f"two poses of `{frame}` explain its tags about as well ({pose.rms_px:.2f} and "
             f"{pose.other_rms_px:.2f} px)"
         )
-        return Refused("ambiguous", message, "show more of its tags, or look at them from nearer by", ids)
+        return Refused("ambiguous", message, _MORE, ids)
+    tilt = noise / pose.noise_px * float(np.sqrt(np.linalg.eigvalsh(pose.covariance[3:, 3:])[-1]))
+    if tilt > MAX_TILT_STD_RAD:
+        message = f"the tags of `{frame}` say its tilt to {np.degrees(tilt):.1f} deg only"
+        return Refused("ambiguous", message, _MORE, ids)
     return None
+
+
+_MORE = "show more of its tags, further apart, or look at them from nearer by"

@@ -38,7 +38,9 @@ def gray_image(image: NDArray[Any], size_px: tuple[int, int]) -> Gray | Refused:
             "record at the size that was calibrated, or calibrate the camera at this one",
         )
     if min(width, height) < MIN_SIDE_PX:
-        return Refused("no_image", f"an image of {width} x {height} pixels is too small", "record a larger one")
+        return Refused(
+            "no_image", f"an image of {width} x {height} pixels is too small", "record a larger one"
+        )
     levels = _eight_bits(image)
     if levels is None:
         return Refused(
@@ -60,9 +62,7 @@ def decode_image(data: bytes) -> NDArray[Any] | None:
     if not data:
         return None
     try:
-        return cast(
-            "NDArray[Any] | None", cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
-        )
+        return cast("NDArray[Any] | None", cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED))
     except cv2.error:
         return None
 
@@ -72,7 +72,7 @@ def _eight_bits(image: NDArray[Any]) -> Gray | None:
         return image
     if image.dtype == np.uint16:
         return (image >> 8).astype(np.uint8)
-    if image.dtype in (np.float32, np.float64):
-        fine = bool(np.isfinite(image).all()) and 0.0 <= float(image.min()) and float(image.max()) <= 1.0
+    if image.dtype.kind == "f":
+        fine = bool(np.isfinite(image).all()) and float(image.min()) >= 0.0 and float(image.max()) <= 1.0
         return np.rint(image * 255.0).astype(np.uint8) if fine else None
     return None

@@ -6,13 +6,16 @@ SQPnP (Terzakis and Lourakis, ECCV 2020); each is then refined by Gauss-Newton o
 
 from __future__ import annotations
 
+import importlib
 from dataclasses import dataclass
+from typing import Any
 
 import cv2
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from xei_lang.world.perception.optics import Array, Optics
+
+Rotation: Any = importlib.import_module("scipy.spatial.transform").Rotation  # ships no type information
 
 _ITERATIONS = 50
 _FLAT_M = 1e-6
@@ -29,13 +32,15 @@ class JointPose:
     `errors_px` (n, 2) are the residuals of the corners, observed minus predicted. `covariance` (6, 6) is that
     of a small motion `d` in `T @ exp(d)`, translation (m) before rotation (rad), in the axes of the frame; it
     holds the noise of corners, not the error of the layout. `other_rms_px` is the residual of the second
-    solution of a planar target, infinite where there is none.
+    solution of a planar target, infinite where there is none; `noise_px` is the standard deviation of a
+    coordinate of a corner that the covariance was made with.
     """
 
     T_optical_frame: Array
     errors_px: Array
     covariance: Array
     other_rms_px: float
+    noise_px: float
 
     @property
     def rms_px(self) -> float:
@@ -57,8 +62,9 @@ def joint_pose(points_m: Array, pixels: Array, optics: Optics) -> JointPose | No
     distinct = [other for other in solved[1:] if not np.allclose(other[0], T, atol=_SAME)]
     freedom = max(errors.size - 6, 1)
     variance = max(float((errors**2).sum()) / freedom, MIN_NOISE_PX**2)
-    covariance = variance * np.linalg.pinv(jacobian.T @ jacobian)
-    return JointPose(T, errors, covariance, rms(distinct[0][1]) if distinct else float("inf"))
+    covariance: Array = variance * np.linalg.pinv(jacobian.T @ jacobian).astype(np.float64)
+    other = rms(distinct[0][1]) if distinct else float("inf")
+    return JointPose(T, errors, covariance, other, float(np.sqrt(variance)))
 
 
 def size_ratio(
@@ -70,12 +76,12 @@ def size_ratio(
     `centres_m` (n, 3) is the centre of the tag of each corner (n, 3). For one tag size and distance cannot be
     told apart, and the deviation is infinite.
     """
-    T, ratio = pose.T_optical_frame, 1.0
+    placed, ratio = pose.T_optical_frame, 1.0
     deviation = float("inf")
     for _ in range(6):
         scaled = centres_m + ratio * (points_m - centres_m)
-        errors, jacobian, by_pixel = _linear(T, scaled, pixels, optics)
-        by_ratio = by_pixel @ T[:3, :3] @ (points_m - centres_m)[..., None]
+        errors, jacobian, by_pixel = _linear(placed, scaled, pixels, optics)
+        by_ratio = by_pixel @ placed[:3, :3] @ (points_m - centres_m)[..., None]
         full = np.hstack([jacobian, by_ratio.reshape(-1, 1)])
         # Columns of unit length, so that only what cannot be observed looks singular.
         lengths = np.linalg.norm(full, axis=0)
@@ -83,7 +89,7 @@ def size_ratio(
         if s[-1] < 1e-3 * s[0]:
             return 1.0, float("inf")
         step = (vt.T @ ((u.T @ errors.reshape(-1)) / s)) / lengths
-        T, ratio = T @ exp_se3(step[:6]), ratio + float(step[6])
+        placed, ratio = placed @ exp_se3(step[:6]), ratio + float(step[6])
         variance = max(float((errors**2).sum()) / max(errors.size - 7, 1), MIN_NOISE_PX**2)
         deviation = float(np.sqrt(variance * ((vt[:, 6] / s) ** 2).sum()) / lengths[6])
     return ratio, deviation
@@ -122,18 +128,21 @@ def _starts(points_m: Array, pixels: Array, optics: Optics) -> list[Array]:
     return found
 
 
-def _refine(T: Array, points: Array, pixels: Array, optics: Optics) -> tuple[Array, Array, Array] | None:
+def _refine(start: Array, points: Array, pixels: Array, optics: Optics) -> tuple[Array, Array, Array] | None:
     """Levenberg's damped Gauss-Newton from a start; None where points end up behind the camera."""
-    errors, jacobian, _ = _linear(T, points, pixels, optics)
+    placed = start
+    errors, jacobian, _ = _linear(placed, points, pixels, optics)
     damping = 1e-6
     for _ in range(_ITERATIONS):
         normal = jacobian.T @ jacobian
         damped = normal + damping * np.diag(np.diag(normal))
-        step = np.linalg.lstsq(damped, jacobian.T @ errors.reshape(-1), rcond=None)[0]
-        moved = T @ exp_se3(step)
+        step: Array = np.linalg.lstsq(damped, jacobian.T @ errors.reshape(-1), rcond=None)[0].astype(
+            np.float64
+        )
+        moved = placed @ exp_se3(step)
         new_errors, new_jacobian, _ = _linear(moved, points, pixels, optics)
         if rms(new_errors) <= rms(errors):
-            T, errors, jacobian = moved, new_errors, new_jacobian
+            placed, errors, jacobian = moved, new_errors, new_jacobian
             damping *= 0.1
             if float(np.abs(step).max()) < 1e-12:
                 break
@@ -141,8 +150,8 @@ def _refine(T: Array, points: Array, pixels: Array, optics: Optics) -> tuple[Arr
             damping *= 100.0
             if damping > 1e6:
                 break
-    in_front = bool(((points @ T[:3, :3].T + T[:3, 3])[:, 2] > 0).all())
-    return (T, errors, jacobian) if in_front and np.isfinite(errors).all() else None
+    in_front = bool(((points @ placed[:3, :3].T + placed[:3, 3])[:, 2] > 0).all())
+    return (placed, errors, jacobian) if in_front and np.isfinite(errors).all() else None
 
 
 def _linear(T: Array, points: Array, pixels: Array, optics: Optics) -> tuple[Array, Array, Array]:
