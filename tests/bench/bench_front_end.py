@@ -5,7 +5,7 @@
 The text is varied: steps with clauses, loops, choices, lists, conditions, comments, names of its own. CPU
 times are of one process with the collector's threshold that `xei` itself sets; the profile is loaded before.
 The line of best fit of log time over log length gives the exponent (1 is linear), and how far the worst
-length lies off it. lark's own LALR parser stands beside, on the same grammar and text, without making our tree. The
+length lies off it. lark's own LALR parser stands beside, on the same grammar and text, without our tree. The
 cold figures are those of a process of its own, as the kernel counts them, without the cache of results.
 """
 
@@ -20,6 +20,7 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from typing import Any
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
@@ -122,7 +123,7 @@ def lengths(most: int, rounds: int) -> None:
     assert profile is not None
     parser = Parser()
     grammar = (ROOT / "grammar" / "xei.lark").read_text(encoding="utf-8")
-    lark = Lark(grammar, parser="lalr", lexer="contextual", start=list(STARTS))
+    lark: Any = Lark(grammar, parser="lalr", lexer="contextual", start=list(STARTS))
     tried = [n for n in LENGTHS if n <= most] if most >= LENGTHS[1] else [most // 2, most]
     sums: list[float] = []
     whole: list[int] = []

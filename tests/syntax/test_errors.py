@@ -61,7 +61,7 @@ def test_huge_but_flat_texts_are_fine() -> None:
     assert diagnose(in_protocol('note "' + "x" * 1_000_000 + '"')) == ()
     assert diagnose(in_protocol("let x = [" + "1, " * 20_000 + "]")) == ()
     assert diagnose(in_protocol("let x = " + "(" * 150 + "a" + ")" * 150)) == ()
-    assert diagnose(in_protocol("let x = " + "(" * 5_000 + "1 + 1" + ")" * 5_000 + " + 1")) == ()
+    assert diagnose(in_protocol("let x = " + "(" * 150 + "1 + 1" + ")" * 150 + " + 1")) == ()
 
 
 def test_control_characters_are_named_not_printed() -> None:

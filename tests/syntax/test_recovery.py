@@ -25,15 +25,26 @@ def parse(text: str) -> tuple[ast.Module, Diagnostics]:
     return module, said
 
 
-@pytest.mark.parametrize(("mistakes", "files"), [(1, 200), (5, 100)])
+SEEDS = (20, 21, 22, 23)
+"""Several: the texts of one are few enough for luck to decide, and change with the project's protocols."""
+
+
+@pytest.mark.parametrize(("mistakes", "files"), [(1, 50), (5, 100)])
 def test_slips_are_found_where_they_are(mistakes: int, files: int) -> None:
-    scores, bad = measure(mistakes, files)
-    total, braces = scores["all"], scores["dropped brace"]
-    shown = "\n".join(note for _, notes in bad for note in notes)
-    assert total.slips == mistakes * files
-    assert total.found >= 0.98 * total.slips, shown
-    assert total.spurious <= 0.05 * total.files, shown
-    assert braces.found >= 0.9 * braces.slips > 0, shown
+    measured = [measure(mistakes, files, seed) for seed in SEEDS]
+    totals = [scores["all"] for scores, _ in measured]
+    braces = [scores["dropped brace"] for scores, _ in measured]
+    shown = "\n".join(note for _, bad in measured for _, notes in bad for note in notes)
+    slips = sum(total.slips for total in totals)
+    assert slips == mistakes * files * len(SEEDS)
+    assert sum(total.found for total in totals) >= 0.98 * slips, shown
+    assert sum(total.spurious for total in totals) <= 0.05 * files * len(SEEDS), shown
+    assert sum(one.found for one in braces) >= 0.9 * sum(one.slips for one in braces) > 0, shown
+
+
+def test_a_mended_brace_hides_no_wrong_escape() -> None:
+    text = 'protocol p {\n  do {\n    home()\n\n  note "a \\q"\n  home()\n}\n'
+    assert lines_of(text) == [5, 5]
 
 
 def test_each_of_several_mistakes_is_told_once() -> None:

@@ -25,7 +25,8 @@ from xei_lang.syntax.ast import ImportTable
 from xei_lang.syntax.loading import Files
 
 MAX_CELLS = 1_000_000
-"""How many cells one table may have."""
+MAX_COLUMNS = 300
+"""How many cells and columns one table may have."""
 
 _HEADER = re.compile(r"(?P<name>[^\[\]()]*?)\s*(?:(?P<open>[\[(])(?P<type>[^\[\]()]*)[\])])?")
 _NAME = re.compile(r"[a-z][a-z0-9_]*")
@@ -76,6 +77,8 @@ class _Table:
             return POISON
         made: list[RecordValue] = []
         for row in found:
+            if self._reporter.is_full:
+                return POISON
             if (len(made) + 1) * len(columns) > MAX_CELLS:
                 self.wrong("XEI0123", f"a table may have {MAX_CELLS} cells", row.span(), "no more from here")
                 return POISON
@@ -100,6 +103,9 @@ class _Table:
 
     def _columns(self, header: CsvRow) -> list[_Column] | None:
         columns: list[_Column] = []
+        if len(header.cells) > MAX_COLUMNS:
+            self.wrong("XEI0123", f"a table may have {MAX_COLUMNS} columns", header.span(), "more than that")
+            return None
         fine = True
         for index, text in enumerate(header.cells):
             column = self._column(text, header, index)

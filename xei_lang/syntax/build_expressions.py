@@ -29,7 +29,7 @@ class ExpressionBuilder:
         self.source = source
         self.diagnostics: list[Diagnostic] = []
         self._quantities: dict[str, Quantity] = {}
-        self._brackets = (0, 0, 0)
+        self._brackets: tuple[int, int, int] = (0, 0, 0)
         """The round brackets that were closed last, and how many others they hold."""
 
     # ---- tokens ----

@@ -76,7 +76,7 @@ class Parser:
         module, more = self._build(source, start, recovered.tokens)
         if module is not None:
             module = replace(module, damaged=recovered.damaged)
-        trusted = [diagnostic for diagnostic in more if not _is_in(diagnostic.span, recovered.damaged)]
+        trusted = [diagnostic for diagnostic in more if not _is_in(diagnostic.span, recovered.changed)]
         return module, (*said, *trusted) if module is not None else said
 
 

@@ -41,12 +41,15 @@ _STATEMENT, _ITEM = "WAIT", "PROTOCOL"
 class Recovered:
     """Tokens that follow the grammar, comments among them, or None where nothing does.
 
-    `damaged` are the parts of the text that were mended or left out: what they say is not to be trusted.
+    `damaged` are the parts of the text that were mended or left out: what they say is not to be trusted. A
+    brace that was mended damages the whole text, although its words stand as they were written: only the
+    parts in `changed` hold others.
     """
 
     tokens: tuple[Token, ...] | None
     diagnostics: Diagnostics
     damaged: tuple[Span, ...]
+    changed: tuple[Span, ...]
 
 
 def recover(source: Source, machine: Machine, scanner: Scanner) -> Recovered:
@@ -61,6 +64,7 @@ class _Recovery:
         self._found: list[Diagnostic] = []
         self._quiet_lines: set[int] = set()
         self._doubtful = -1
+        self._braces_mended = False
         self._mends = 0
 
     def run(self) -> Recovered:
@@ -84,7 +88,9 @@ class _Recovery:
         if whole:
             tokens = tuple(self._cursor.with_comments())
         found = sorted(self._found, key=lambda diagnostic: diagnostic.span.start if diagnostic.span else 0)
-        return Recovered(tokens, tuple(found), tuple(self._cursor.damaged))
+        changed = tuple(self._cursor.damaged)
+        whole_text = (Span(self._source.file, 0, len(self._cursor.text)),) if self._braces_mended else ()
+        return Recovered(tokens, tuple(found), (*whole_text, *changed), changed)
 
     # ---- braces ----
 
@@ -101,8 +107,7 @@ class _Recovery:
                 place = self._cursor.tokens[fault.index - 1].end
                 kind, sign = ("LBRACE", "{") if fault.kind == "opening" else ("RBRACE", "}")
                 self._cursor.tokens.insert(fault.index, Token(kind, sign, place, place))
-        if faults:
-            self._cursor.damaged.append(Span(self._source.file, 0, len(self._cursor.text)))
+        self._braces_mended = bool(faults)
 
     # ---- one mistake ----
 
