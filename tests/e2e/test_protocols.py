@@ -31,7 +31,13 @@ def made_of(path: Path) -> Handoffs:
 
 
 def test_there_are_protocols() -> None:
-    assert {path.stem for path in PROTOCOLS} >= {"put_on_rack", "rack_six_tubes", "two_stations"}
+    assert {path.stem for path in PROTOCOLS} >= {
+        "pour_and_wipe",
+        "put_on_rack",
+        "rack_six_tubes",
+        "start_incubator",
+        "two_stations",
+    }
 
 
 @every_protocol
@@ -68,7 +74,7 @@ def test_the_objects_end_where_the_protocol_puts_them(path: Path) -> None:
     made = made_of(path)
     assert made.timed is not None and made.graph is not None
     put = [goal for goal in made.timed.goals if goal.kind == "detach"]
-    assert put
+    assert len(put) == sum(goal.kind == "attach" for goal in made.timed.goals)
     assert all(len(goal.placed) == 1 for goal in put)
 
 
