@@ -17,12 +17,12 @@ from pathlib import Path
 
 import cv2
 import numpy as np
-import pupil_apriltags
 
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT))
 
 from tests.world.perception.render import render  # noqa: E402
+from tests.world.perception.second_opinion import second_detector  # noqa: E402
 from tests.world.perception.views import DISTORTION, bench, error_of, optics, random_view, table_tags  # noqa: E402
 from xei_lang.world.perception.detect_tags import TagDetection, detect_tags  # noqa: E402
 from xei_lang.world.perception.frame_anchor import FrameAnchor, anchor_frame  # noqa: E402
@@ -60,32 +60,22 @@ class Row:
         )
 
 
-def pupil() -> Detect:
-    detector = pupil_apriltags.Detector(families="tag36h11", nthreads=1, quad_decimate=1.0, refine_edges=True)
-
-    def detect(gray: Gray, lens: Optics) -> tuple[TagDetection, ...]:
-        found = sorted(detector.detect(gray), key=lambda one: one.tag_id)
-        # Counter-clockwise from the bottom left corner, with pixels counted from their corner.
-        return tuple(TagDetection(one.tag_id, one.corners[::-1] - 0.5) for one in found)
-
-    return detect
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--small", action="store_true", help="6 images instead of 200")
     count = 6 if parser.parse_args().small else 200
     cv2.setNumThreads(1)
     random = np.random.default_rng(SEED)
-    rows = [
-        Row("xei", lambda gray, lens: detect_tags(gray, lens, "tag36h11")),
-        Row("pupil-apriltags", pupil()),
-    ]
-    for index in range(count):
-        lens, truth = optics(DISTORTION if index % 2 else ()), random_view(random)
-        image = render(table_tags(), truth, lens, seed=index)
-        for row in rows:
-            row.look(image, lens, truth)
+    with second_detector() as pupil:
+        rows = [
+            Row("xei", lambda gray, lens: detect_tags(gray, lens, "tag36h11")),
+            Row("pupil-apriltags", lambda gray, _: pupil(gray)),
+        ]
+        for index in range(count):
+            lens, truth = optics(DISTORTION if index % 2 else ()), random_view(random)
+            image = render(table_tags(), truth, lens, seed=index)
+            for row in rows:
+                row.look(image, lens, truth)
     print(f"{count} images of 1280 x 720, {len(table_tags())} tags of 50 mm, one thread, CPU time")
     print(*rows, sep="\n")
 

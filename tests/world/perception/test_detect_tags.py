@@ -27,11 +27,13 @@ def test_corners_are_named_as_apriltag_publishes_its_tags(family):
     image = render(tags, T, lens, family=family)
     seen = detect_tags(image, lens, family)
     with second_detector(family) as detect:
-        other = {found.id: found for found in detect(image)}
+        others = detect(image)
     assert [found.id for found in seen] == [tag.id for tag in tags]
     for found, tag in zip(seen, tags, strict=True):
         assert np.abs(found.corners_px - true_corners(tag, T, lens)).max() < 0.25
-        assert np.abs(found.corners_px - other[found.id].corners_px).max() < 0.8
+        # A family with few bits is also read out of noise: of several of one id, the nearest is meant.
+        apart = [np.abs(found.corners_px - one.corners_px).max() for one in others if one.id == found.id]
+        assert min(apart) < 0.8
 
 
 @pytest.mark.parametrize("distortion", [(), DISTORTION])
