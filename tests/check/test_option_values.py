@@ -58,3 +58,10 @@ def test_a_message_points_into_the_option_and_mends_nothing_there() -> None:
     assert source is not None
     assert source.slice(wrong.span) == "True"
     assert option_source("protocols/a.xei") is None
+
+
+def test_a_range_of_the_command_line_is_counted_before_it_is_made() -> None:
+    _, found = check(
+        protocol("param ts: List[Int]\nfor t in ts { wait 1 s }"), params={"ts": "1 .. 999999999999"}
+    )
+    assert [item.code for item in found] == ["XEI0316"]

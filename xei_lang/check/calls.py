@@ -8,12 +8,13 @@ from dataclasses import dataclass
 from xei_lang.check import arithmetic
 from xei_lang.check.amounts import Amounts, in_range, is_less_than_nothing, is_nothing
 from xei_lang.check.arguments import Signature, match_arguments
+from xei_lang.check.callees import Callees
 from xei_lang.check.effects import Effect, effects_of, moves
 from xei_lang.check.evaluate import Evaluator
 from xei_lang.check.expectation import Expectation
 from xei_lang.check.names import ANY_WORD
 from xei_lang.check.registry import Registry
-from xei_lang.check.report import Reporter, guess, listed, meant
+from xei_lang.check.report import Reporter, listed
 from xei_lang.check.scope import Scope
 from xei_lang.check.state import State
 from xei_lang.check.transfers import Transfer, transfers_of
@@ -28,7 +29,7 @@ from xei_lang.check.values import (
     show,
     to_plan,
 )
-from xei_lang.diagnostics import Span, did_you_mean
+from xei_lang.diagnostics import Span
 from xei_lang.ir.skill_plan import Argument, Value
 from xei_lang.profiles.model import ArgSpec, SkillSpec
 from xei_lang.quantity import Quantity, QuantityError, parse_quantity
@@ -50,10 +51,10 @@ class CheckedCall:
     @property
     def moves_nothing(self) -> bool:
         """Whether it is a transfer of nothing at all, which need not happen."""
-        amounts = {transfer.amount for transfer in self.transfers}
-        return bool(amounts) and all(
-            name is not None and is_nothing(self.given.get(name)) for name in amounts
-        )
+        if not self.transfers:
+            return False
+        amounts = (transfer.amount for transfer in self.transfers)
+        return all(name is not None and is_nothing(self.given.get(name)) for name in amounts)
 
     @property
     def values(self) -> dict[str, Value]:
@@ -96,13 +97,13 @@ class Calls:
         self._evaluator = evaluator
         self._types = types
         self._reporter = reporter
-        self._units = units
+        self._callees = Callees(registry, reporter, units)
         self._amounts = Amounts(evaluator, types, reporter)
         self._prepared: dict[str, _Prepared] = {}
 
     def check(self, call: Call, scope: Scope, state: State) -> CheckedCall | None:
         """The call with its arguments as they are at this point of the plan; None where it does not hold."""
-        skill = self._skill(call)
+        skill = self._callees.skill(call)
         if skill is None:
             self._look_at_arguments(call, scope)
             return None
@@ -119,47 +120,6 @@ class Calls:
             return None
         found = tuple(_planned(spec, value, given) for spec, value in _present(prepared, values))
         return CheckedCall(skill, prepared.effects, prepared.transfers, values, found, call.callee.span)
-
-    def _skill(self, call: Call) -> SkillSpec | None:
-        name = call.callee.id
-        skill = self._registry.skills.get(name)
-        callable_skills = tuple(skill.name for skill in self._registry.skills.values() if skill.exposed)
-        unit = self._units[call.span.file]
-        if skill is None and not unit.complete:
-            return None
-        if skill is None:
-            near = did_you_mean(name, (*callable_skills, *unit.procedures))
-            self._reporter.report(
-                "XEI0201",
-                f"there is no skill `{name}`",
-                call.callee.span,
-                "neither a skill of this robot nor a procedure of this file",
-                help=meant(near) or (f"this robot's skills are {listed(callable_skills, 12)}",),
-                fix=guess(call.callee.span, near),
-            )
-        elif not skill.exposed:
-            self._reporter.report(
-                "XEI0203",
-                f"skill `{name}` cannot be called from a protocol",
-                call.callee.span,
-                "only other skills use it",
-                notes=(self._reporter.rule(skill.span),),
-                help=(f"skills that can be called: {listed(callable_skills, 12)}",),
-            )
-        elif skill.owner not in self._registry.owners:
-            self._reporter.report(
-                "XEI0204",
-                f"this robot has no `{skill.owner}`, which `{name}` needs",
-                call.callee.span,
-                f"performed by `{skill.owner}`",
-                notes=(
-                    self._reporter.rule(skill.span),
-                    f"this robot has {listed(self._registry.owners, 12)}",
-                ),
-            )
-        else:
-            return skill
-        return None
 
     def _look_at_arguments(self, call: Call, scope: Scope) -> None:
         """Evaluate the arguments of a call that cannot be checked, for the mistakes in themselves."""

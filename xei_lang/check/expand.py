@@ -284,7 +284,8 @@ class Expander:
             resources=self._resources[key],
         )
         apply_effects(checked.effects, values, self.state)
-        apply_transfers(checked.transfers, checked.given, self.state, skill.name, checked.span)
+        if checked.transfers:
+            apply_transfers(checked.transfers, checked.given, self.state, skill.name, checked.span)
 
     def _wait(self, step: Step, action: Wait, scope: Scope, where: Where) -> None:
         value = self.context.clauses.time(action.duration, "`wait`", scope, self.state)

@@ -11,7 +11,7 @@ from xei_lang.check.report import Reporter
 from xei_lang.check.scope import Scope, Usage
 from xei_lang.check.state import State
 from xei_lang.check.types import ANY_ARM, Types
-from xei_lang.check.values import POISON, Val
+from xei_lang.check.values import POISON, ListValue, Val
 from xei_lang.diagnostics import Source
 from xei_lang.diagnostics.options import option_value
 from xei_lang.syntax.ast import Expression, Range, StringLit
@@ -38,6 +38,8 @@ class OptionValues:
             return POISON
         words = (*self._registry.arms, ANY_ARM) if expected.type == "Arm" else ()
         value = self._evaluator.value(node, Scope(Usage()), words)
+        if isinstance(value, ListValue) and not self._evaluator.budget.spend(len(value.items), span):
+            return POISON
         written = StringLit(given, span) if isinstance(node, Range) else node
         return self._types.coerce(value, expected, written, state)
 
