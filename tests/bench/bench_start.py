@@ -1,5 +1,5 @@
-"""`xei check protocols/put_on_rack.xei` from process start, beside a Python that does nothing and one that
-only imports click.
+"""`xei check protocols/put_on_rack.xei` from process start, checked anew and answered from the kept result,
+beside a Python that does nothing and one that only imports click.
 
 Run by hand: `python tests/bench/bench_start.py` (15 rounds); `--small` (2 rounds) only shows that it still
 runs. CPU time, user and system, of whole processes, in turns; caches (bytecode, grammar, profile) are warm.
@@ -21,7 +21,8 @@ TARGET_S = 0.15
 COMMANDS = {
     "python -c pass": (sys.executable, "-c", "pass"),
     "python -c 'import click'": (sys.executable, "-c", "import click"),
-    "xei check put_on_rack": (*XEI, "check", "protocols/put_on_rack.xei"),
+    "xei check --no-cache": (*XEI, "check", "--no-cache", "protocols/put_on_rack.xei"),
+    "xei check, unchanged": (*XEI, "check", "protocols/put_on_rack.xei"),
 }
 
 
