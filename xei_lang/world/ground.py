@@ -1,67 +1,114 @@
-"""World grounding from what is written down: usage-profile priors first, then system objects.
+"""World grounding: what priors and system objects say, and over that what sources saw, in their order.
 
-Each field of each object says which source gave it. What the robot sees later replaces priors; nothing here
-does.
+Each field of each object says which source gave it. Nothing is placed that no source places, and what cannot
+be is an error rather than a guess.
 """
 
 from __future__ import annotations
 
-from xei_lang.diagnostics import Diagnostic, Diagnostics
+from collections.abc import Iterator, Mapping
+
+from xei_lang.diagnostics import Diagnostic, Diagnostics, has_errors
 from xei_lang.ir.geometry import Pose
 from xei_lang.ir.world import World, WorldObject
-from xei_lang.profiles.grid import T_frame_object
+from xei_lang.profiles.grid import T_world_frame
 from xei_lang.profiles.model import LabObject, Profile
 from xei_lang.world.frames import frame_tree, start_state
-from xei_lang.world.places import initial_place, place_text
+from xei_lang.world.places import place_text
+from xei_lang.world.sources.belief import OBJECT_REGISTRY, PRIOR, USAGE_PROFILE, beliefs, profile_source
+from xei_lang.world.sources.contradictions import Known, contradictions
+from xei_lang.world.sources.faults import observation_faults
+from xei_lang.world.sources.observation import Observations
+from xei_lang.world.sources.standing import Standings
 
-SOURCES = ("usage_profile", "object_registry")
+SOURCES = (USAGE_PROFILE, OBJECT_REGISTRY)
+"""The sources that every profile has; what is observed overrides them."""
 
 
-def ground(profile: Profile) -> tuple[World | None, Diagnostics]:
-    """The world as the profile knows it. Objects that no source places are left out, each with a note."""
-    state = start_state(profile)
-    found: list[Diagnostic] = []
-    objects: list[WorldObject] = []
+def ground(profile: Profile, observed: tuple[Observations, ...] = ()) -> tuple[World | None, Diagnostics]:
+    """The world as the profile and then the observations have it, later sources overriding earlier ones.
+
+    Objects that no source places are left out, each with a note; None where observations contradict the
+    profile or each other.
+    """
+    frames = static_frames(profile)
+    found = [fault for source in observed for fault in observation_faults(profile, source, sorted(frames))]
+    if has_errors(tuple(found)):
+        return None, tuple(found)
+    believed = beliefs(profile.objects, observed)
+    standings = Standings(believed, frames)
+    known: list[Known] = []
     for item in profile.objects:
-        placed = T_frame_object(profile, item)
-        if placed is None:
-            found.append(_unplaced(item))
+        standing = standings.of(item.name)
+        if standing is None:
+            found.append(_unplaced(item, observed))
         else:
-            objects.append(_grounded(item, *placed))
-    objects.sort(key=lambda item: item.name)
-    return World(frame_tree(profile, state), tuple(objects), state, SOURCES), tuple(found)
+            known.append(Known(believed[item.name], standing))
+    found.extend(contradictions(profile, tuple(known), frames) if observed else ())
+    if has_errors(tuple(found)):
+        return None, tuple(found)
+    state = start_state(profile)
+    objects = sorted((_grounded(one) for one in known), key=lambda item: item.name)
+    sources = (*SOURCES, *(source.source for source in observed))
+    return World(frame_tree(profile, state), tuple(objects), state, sources), tuple(found)
 
 
-def _grounded(item: LabObject, frame: str, pose: Pose) -> WorldObject:
-    place = initial_place(item)
-    source = SOURCES[1] if item.system else SOURCES[0]
-    fields = ("pose", "confidence", "roles", "size", "geometry", "mass", "states")
+def static_frames(profile: Profile) -> Mapping[str, Pose]:
+    """The frames that stay where they are whatever the robot does, with their poses in `world`."""
+    names = ("world", *(frame.name for frame in profile.calibration.frames))
+    found = ((name, T_world_frame(profile, name)) for name in names)
+    return {name: pose for name, pose in found if pose is not None}
+
+
+def _grounded(one: Known) -> WorldObject:
+    known, standing, item = one.belief, one.standing, one.belief.item
+    moved = (("seen.moved_mm", f"{standing.moved_m * 1000:.1f}"),) if known.seen and standing.moved_m else ()
     return WorldObject(
         name=item.name,
-        T_frame_object=pose,
-        frame_id=frame,
-        confidence=item.prior.confidence if item.prior else 0.0,
+        T_frame_object=standing.T_frame_object,
+        frame_id=standing.frame_id,
+        confidence=known.confidence,
         roles=item.roles,
         skills=item.skills,
         size_m=item.size_m,
         geometry=item.geometry,
         mass_kg=item.mass_kg,
-        place=place_text(place) if place else "",
+        place=place_text(standing.place) if standing.place is not None and standing.place.key else "",
         movable="movable" in item.roles,
-        states=tuple((state.name, state.initial) for state in item.states),
-        metadata=tuple((f"asset.{name}", path or "missing") for name, path in item.assets),
-        provenance=tuple(
-            (name, f"{source} prior" if name in ("pose", "confidence") else source) for name in fields
-        ),
+        states=known.states,
+        metadata=(*known.metadata, *moved),
+        provenance=tuple(_provenance(one)),
     )
 
 
-def _unplaced(item: LabObject) -> Diagnostic:
+def _provenance(one: Known) -> Iterator[tuple[str, str]]:
+    known, own = one.belief, profile_source(one.belief.item)
+    yield "pose", known.seen.source if known.seen else f"{own} {PRIOR}{_carried(one)}"
+    yield "confidence", known.confidence_from
+    yield from ((field, own) for field in ("roles", "size", "geometry", "mass", "states"))
+    yield from ((f"states.{name}", source) for name, source in known.states_from)
+
+
+def _carried(one: Known) -> str:
+    carrier = one.standing.carried_by
+    return f", moved with {carrier}" if carrier else ""
+
+
+def is_prior(item: WorldObject) -> bool:
+    """Whether only a prior of the usage profile says where the object is (or where in a thing it is)."""
+    return dict(item.provenance).get("pose", "").startswith(f"{USAGE_PROFILE} {PRIOR}")
+
+
+def _unplaced(item: LabObject, observed: tuple[Observations, ...]) -> Diagnostic:
+    asked = ", ".join(source.source for source in observed)
     return Diagnostic(
         "XEI0660",
         f"no source says where `{item.name}` is",
         item.span,
-        label="has no `prior`",
-        notes=("a protocol that uses it needs a source that places it",),
+        label="has no `prior`" if item.prior is None else "is not where its `prior` has it, or leads nowhere",
+        notes=(
+            "a protocol that uses it needs a source that places it",
+            *((f"asked besides the profile: {asked}",) if asked else ()),
+        ),
         help=("add a `prior`, such as `{frame: table, position: [0.1 m, 0 m, 0 m], confidence: 0.6}`",),
     )

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from xei_lang.diagnostics import Diagnostic, Label
-from xei_lang.ir.geometry import Box, Cylinder
+from xei_lang.ir.geometry import Box, Cylinder, Pose
 from xei_lang.profiles.grid import T_frame_object, T_world_frame, prior_chain
 from xei_lang.profiles.model import LabObject, Profile
 
@@ -63,11 +63,14 @@ def _diagnostic(first: LabObject, second: LabObject, depth_m: float) -> Diagnost
 def _solids(profile: Profile, item: LabObject) -> tuple[Upright, ...]:
     placed = T_frame_object(profile, item)
     T_world_frame_ = T_world_frame(profile, placed[0]) if placed else None
-    if placed is None or T_world_frame_ is None:
-        return ()
+    return solids_at(item, T_world_frame_ @ placed[1]) if placed and T_world_frame_ else ()
+
+
+def solids_at(item: LabObject, T_world_object: Pose) -> tuple[Upright, ...]:
+    """The parts of an object that stand upright where it is put."""
     found: list[Upright] = []
     for part in item.geometry:
-        pose = T_world_frame_ @ placed[1] @ part.T_object_shape
+        pose = T_world_object @ part.T_object_shape
         x_axis, _, z_axis = pose.axes()
         shape = part.shape
         if z_axis[2] < 1.0 - 1e-9 or not isinstance(shape, (Box, Cylinder)):

@@ -36,6 +36,7 @@ class Observation:
     covariance: tuple[float, ...] = ()
     perception_args: tuple[tuple[str, str], ...] = ()
     metadata: tuple[tuple[str, str], ...] = ()
+    is_absent: bool = False
     span: Span | None = None
 
 

@@ -1,0 +1,161 @@
+"""What sources say and cannot be: two things in one place, things in each other, under a table, out of reach
+of every station.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from xei_lang.diagnostics import Diagnostic, Label
+from xei_lang.ir.geometry import Pose
+from xei_lang.profiles.checks.overlap import TOUCH_M, Upright, overlap_m, solids_at
+from xei_lang.profiles.model import Profile
+from xei_lang.world.places import place_text
+from xei_lang.world.sources.belief import Belief
+from xei_lang.world.sources.settle import HEIGHT_M
+from xei_lang.world.sources.standing import Standing
+
+_CODE = "XEI0658"
+
+
+@dataclass(frozen=True, slots=True)
+class Known:
+    """An object of which something is known: who said so, and where it stands by that."""
+
+    belief: Belief
+    standing: Standing
+
+    @property
+    def name(self) -> str:
+        """The object's name."""
+        return self.belief.item.name
+
+    @property
+    def is_moved(self) -> bool:
+        """Whether it is not just where its prior has it: it was seen, or what it stands in was."""
+        return self.belief.seen is not None or bool(self.standing.carried_by)
+
+
+def contradictions(
+    profile: Profile, known: tuple[Known, ...], frames: Mapping[str, Pose]
+) -> Iterator[Diagnostic]:
+    """One error for each object, or pair of objects, that cannot be where the sources have it."""
+    shared: set[frozenset[str]] = set()
+    for first, second, place in _shared_places(known):
+        shared.add(frozenset((first.name, second.name)))
+        yield _error(
+            first,
+            f"`{first.name}` was seen in `{place}`, where `{second.name}` is",
+            f"taken by `{second.name}`",
+            second,
+        )
+    for one in known:
+        if one.belief.seen is not None and not one.belief.item.system:
+            yield from _outside(profile, one)
+            yield from _below(profile, one, frames)
+    for first, second, depth_m in _overlaps(known):
+        if frozenset((first.name, second.name)) not in shared:
+            message = f"`{first.name}` and `{second.name}` would stand in each other"
+            yield _error(first, message, f"overlap by {_mm(depth_m)}", second)
+
+
+def _shared_places(known: tuple[Known, ...]) -> Iterator[tuple[Known, Known, str]]:
+    taken: dict[str, Known] = {}
+    for one in sorted(known, key=lambda item: (item.belief.seen is not None, item.name)):
+        place = one.standing.place
+        if place is None or not place.key:
+            continue
+        text = place_text(place)
+        if text in taken and one.belief.seen is not None:
+            yield one, taken[text], text
+        taken.setdefault(text, one)
+
+
+def _outside(profile: Profile, one: Known) -> Iterator[Diagnostic]:
+    lower, upper = profile.calibration.workspace_bounds_m
+    seen_m = one.standing.T_world_object.position_m
+    for station in profile.calibration.stations:
+        at = station.T_world_base.inverse().apply(seen_m)
+        if all(low <= value <= high for low, value, high in zip(lower, at, upper, strict=True)):
+            return
+    where = ", ".join(f"{value:.2f}" for value in seen_m)
+    message = f"`{one.name}` was seen outside of the workspace of every station"
+    yield _error(one, message, f"at ({where}) m in `world`")
+
+
+def _below(profile: Profile, one: Known, frames: Mapping[str, Pose]) -> Iterator[Diagnostic]:
+    """Things seen lower than a table top, within its bounds."""
+    lower, upper = profile.calibration.table_bounds_m
+    for name in sorted({station.ground_frame for station in profile.calibration.stations}):
+        T_world_table = frames.get(name)
+        if T_world_table is None:
+            continue
+        x, y, z = T_world_table.inverse().apply(one.standing.T_world_object.position_m)
+        if lower[0] <= x <= upper[0] and lower[1] <= y <= upper[1] and z < -HEIGHT_M:
+            message = f"`{one.name}` was seen {_mm(-z)} below the top of `{name}`"
+            yield _error(one, message, "expected a height of 0 or above")
+
+
+def _overlaps(known: tuple[Known, ...]) -> Iterator[tuple[Known, Known, float]]:
+    """Pairs of which one at least was moved by what was seen, with how deep they are in each other."""
+    bodies = [(one, solids_at(one.belief.item, one.standing.T_world_object)) for one in known]
+    balls = [_ball(one) for one in known]
+    for index, (first, parts) in enumerate(bodies):
+        for other in range(index):
+            second, others = bodies[other]
+            if not (first.is_moved or second.is_moved) or not _near(balls[index], balls[other]):
+                continue
+            if _stands_in(first, second) or _stands_in(second, first):
+                continue
+            depth_m = max((_depth_m(a, b) for a in parts for b in others), default=0.0)
+            if depth_m > TOUCH_M:
+                pair = (first, second) if first.belief.seen is not None else (second, first)
+                yield *pair, depth_m
+
+
+def _depth_m(a: Upright, b: Upright) -> float:
+    apart = a.lower_m >= b.upper_m or b.lower_m >= a.upper_m
+    return 0.0 if apart else overlap_m(a, b)
+
+
+def _stands_in(one: Known, host: Known) -> bool:
+    place = one.standing.place
+    return place is not None and place.object == host.name and place.kind != "surface"
+
+
+def _ball(one: Known) -> tuple[float, float, float, float]:
+    """Middle (m, in `world`) and radius of a ball around an object."""
+    size = one.belief.item.size_m
+    x, y, z = one.standing.T_world_object.apply((0.0, 0.0, size[2] / 2))
+    return x, y, z, math.hypot(*size) / 2
+
+
+def _near(a: tuple[float, float, float, float], b: tuple[float, float, float, float]) -> bool:
+    return math.dist(a[:3], b[:3]) < a[3] + b[3]
+
+
+def _error(one: Known, message: str, label: str, other: Known | None = None) -> Diagnostic:
+    seen = one.belief.seen
+    span = seen.span if seen else None
+    says = [_who(item) for item in (one, other) if item is not None]
+    labels = ()
+    if other is not None and other.belief.seen is not None and other.belief.seen.span is not None:
+        labels = (Label(other.belief.seen.span, f"`{other.name}` was seen here"),)
+    help_ = "look again, or correct what is wrong"
+    if other is not None and other.belief.seen is None and not other.belief.item.system:
+        help_ = f"look for `{other.name}` too, or say that it is absent: only its prior has it there"
+    return Diagnostic(_CODE, message, span, label if span else "", labels, tuple(says), (help_,))
+
+
+def _who(one: Known) -> str:
+    if one.belief.seen is not None:
+        return f"`{one.name}` was placed by {one.belief.seen.source}"
+    if one.standing.carried_by:
+        return f"`{one.name}` is where its prior has it in `{one.standing.carried_by}`, which was seen"
+    return f"`{one.name}` is where its prior has it"
+
+
+def _mm(length_m: float) -> str:
+    return f"{length_m * 1000:.3g} mm"

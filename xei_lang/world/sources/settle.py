@@ -1,0 +1,105 @@
+"""What an object that was seen somewhere stands in or on: eyes are off by millimetres, slots are not.
+
+An object that was seen upright, its axis through a slot's bore and its bottom near the slot's floor, stands
+in that slot. Near a named spot it stands there, where it was seen. On a surface it stands on the surface.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from xei_lang.ir.geometry import Pose
+from xei_lang.ir.skill_plan import PlaceRef
+from xei_lang.profiles import grid as grids
+from xei_lang.profiles.model import LabObject
+from xei_lang.world.places import accepts, slots
+
+HEIGHT_M = 0.010
+"""A bottom that was seen this far above or below where it can stand, stands there: what depth cameras and
+tags at a metre are good for.
+"""
+SPOT_M = 0.010
+"""What was seen this near to a named spot, along the surface, stands on the spot."""
+TILT_RAD = math.radians(10.0)
+"""What was seen leaning by less stands upright."""
+
+
+@dataclass(frozen=True, slots=True)
+class Host:
+    """Something that others may stand in or on, and where it stands itself."""
+
+    item: LabObject
+    T_world_host: Pose
+
+
+@dataclass(frozen=True, slots=True)
+class Settled:
+    """Where an object stands: its host, the place there (a whole surface has an empty key), and its pose."""
+
+    host: LabObject
+    place: PlaceRef
+    T_host_object: Pose
+
+
+def is_host(item: LabObject) -> bool:
+    """Whether anything can stand in or on it."""
+    return item.slots is not None or bool(item.spots) or _takes(item)
+
+
+def settle(item: LabObject, T_world_object: Pose, hosts: Iterator[Host]) -> Settled | None:
+    """Where the object stands that was seen at `T_world_object`; None where that is in and on nothing.
+
+    Slots come before spots, and spots before surfaces; of several, the nearest.
+    """
+    found: list[tuple[int, float, str, Settled]] = []
+    for host in hosts:
+        T_host_object = host.T_world_host.inverse() @ T_world_object
+        if T_host_object.axes()[2][2] < math.cos(TILT_RAD):
+            continue
+        for rank, distance_m, settled in _candidates(item, host.item, T_host_object):
+            found.append((rank, distance_m, settled.place.object + settled.place.key, settled))
+    return min(found, key=lambda one: one[:3])[3] if found else None
+
+
+def _candidates(item: LabObject, host: LabObject, seen: Pose) -> Iterator[tuple[int, float, Settled]]:
+    x, y, z = seen.position_m
+    slot = _nearest_slot(item, host, x, y)
+    if slot is not None and host.slots is not None:
+        place, T_host_floor = slot
+        fx, fy, fz = T_host_floor.position_m
+        distance_m = math.hypot(x - fx, y - fy)
+        if distance_m <= host.slots.bore_m / 2 and abs(z - fz) <= HEIGHT_M:
+            yield 0, distance_m, Settled(host, place, _upright(seen, fx, fy, fz))
+    for spot in host.spots:
+        sx, sy, sz = spot.T_object_spot.position_m
+        distance_m = math.hypot(x - sx, y - sy)
+        if distance_m <= SPOT_M and abs(z - sz) <= HEIGHT_M:
+            place = PlaceRef(host.name, "spot", spot.name)
+            yield 1, distance_m, Settled(host, place, _upright(seen, x, y, sz))
+    top = host.size_m[2]
+    on_it = abs(x) <= host.size_m[0] / 2 and abs(y) <= host.size_m[1] / 2
+    if _takes(host) and on_it and abs(z - top) <= HEIGHT_M:
+        yield 2, abs(z - top), Settled(host, PlaceRef(host.name, "surface", ""), _upright(seen, x, y, top))
+
+
+def _nearest_slot(item: LabObject, host: LabObject, x: float, y: float) -> tuple[PlaceRef, Pose] | None:
+    """The slot for such an object whose axis is nearest, and its floor in the host's frame."""
+    near: list[tuple[float, PlaceRef, Pose]] = []
+    for place in slots(host):
+        T_host_floor = grids.T_object_standing(host, place.kind, place.key)
+        if T_host_floor is not None and accepts(host, place, item.roles):
+            fx, fy, _ = T_host_floor.position_m
+            near.append((math.hypot(x - fx, y - fy), place, T_host_floor))
+    return min(near, key=lambda one: one[0])[1:] if near else None
+
+
+def _upright(seen: Pose, x: float, y: float, z: float) -> Pose:
+    """The pose at this point, z up, turned about z as it was seen."""
+    x_axis = seen.axes()[0]
+    return Pose.from_rpy((x, y, z), (0.0, 0.0, math.atan2(x_axis[1], x_axis[0])))
+
+
+def _takes(item: LabObject) -> bool:
+    return "surface" in item.roles or "place_target" in item.roles

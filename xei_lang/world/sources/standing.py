@@ -1,0 +1,148 @@
+"""Where every object stands, by what was seen and by priors: what stands in a thing that was seen moves with
+it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from xei_lang.ir.geometry import IDENTITY, Pose, Vec3
+from xei_lang.ir.skill_plan import PlaceRef
+from xei_lang.profiles.grid import T_object_standing
+from xei_lang.profiles.model import LabObject
+from xei_lang.world.places import initial_place
+from xei_lang.world.sources.belief import Belief
+from xei_lang.world.sources.settle import HEIGHT_M, Host, is_host, settle
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """Where an object is: its pose in a frame that stays, what it stands in or on, and how far from where it
+    was seen that is. `carried_by` names the object that was seen and took this one with it.
+    """
+
+    frame_id: str
+    T_frame_object: Pose
+    T_world_object: Pose
+    place: PlaceRef | None = None
+    moved_m: float = 0.0
+    carried_by: str = ""
+
+
+class Standings:
+    """Finds where objects stand, each once, those that carry others before what they carry.
+
+    `frames` maps each frame that stays where it is to its pose in `world`.
+    """
+
+    def __init__(self, beliefs: Mapping[str, Belief], frames: Mapping[str, Pose]) -> None:
+        self._beliefs = beliefs
+        self._frames = frames
+        self._found: dict[str, Standing | None] = {}
+        self._open: set[str] = set()
+        self._hosts = [one for one in beliefs.values() if is_host(one.item) and not one.is_absent]
+        self._rough = {one.item.name: self._rough_pose(one.item) for one in self._hosts}
+
+    def of(self, name: str) -> Standing | None:
+        """Where this object stands; None where no source says, or the way there is a circle."""
+        if name not in self._found:
+            known = self._beliefs.get(name)
+            if known is None or name in self._open:
+                return None
+            self._open.add(name)
+            self._found[name] = self._find(known)
+            self._open.discard(name)
+        return self._found[name]
+
+    def _find(self, known: Belief) -> Standing | None:
+        if known.is_absent:
+            return None
+        return self._by_sight(known) if known.seen else self._by_prior(known.item)
+
+    def _by_prior(self, item: LabObject) -> Standing | None:
+        prior = item.prior
+        if prior is None:
+            return None
+        place = initial_place(item)
+        if place is None:
+            T_world_frame = self._frames.get(prior.frame)
+            if T_world_frame is None:
+                return None
+            pose = prior.T_frame_object
+            return Standing(prior.frame, pose, T_world_frame @ pose)
+        holder, under = self.of(place.object), self._beliefs.get(place.object)
+        T_holder = T_object_standing(under.item, place.kind, place.key) if under else None
+        if holder is None or under is None or T_holder is None:
+            return None
+        carrier = under.item.name if under.seen else holder.carried_by
+        return _on(holder, T_holder @ prior.T_frame_object, place, 0.0, carrier)
+
+    def _by_sight(self, known: Belief) -> Standing | None:
+        seen = known.seen
+        assert seen is not None
+        T_world_frame = self._frames.get(seen.frame_id)
+        if T_world_frame is None:
+            return None
+        T_world_seen = T_world_frame @ seen.T_frame_object
+        settled = settle(known.item, T_world_seen, self._hosts_near(known.item.name, T_world_seen.position_m))
+        if settled is None:
+            return Standing(seen.frame_id, seen.T_frame_object, T_world_seen)
+        host = self.of(settled.host.name)
+        assert host is not None
+        T_world_object = host.T_world_object @ settled.T_host_object
+        moved_m = math.dist(T_world_object.position_m, T_world_seen.position_m)
+        return _on(host, settled.T_host_object, settled.place, moved_m, "")
+
+    def _hosts_near(self, name: str, seen_m: Vec3) -> Iterator[Host]:
+        """The hosts within which, or on top of which, this point may be, with where they stand."""
+        for one in self._hosts:
+            rough = self._rough[one.item.name]
+            if one.item.name == name or rough is None or not _may_hold(one.item, rough, seen_m):
+                continue
+            standing = self.of(one.item.name)
+            if standing is not None:
+                yield Host(one.item, standing.T_world_object)
+
+    def _rough_pose(self, item: LabObject) -> Pose | None:
+        """Where a host is before anything is settled: as it was seen, or as priors chain."""
+        pose, name, passed = IDENTITY, item.name, set[str]()
+        while name not in passed:
+            passed.add(name)
+            known = self._beliefs.get(name)
+            if known is None:
+                return None
+            prior, seen = known.item.prior, known.seen
+            if seen is not None or (prior is not None and not prior.in_object):
+                frame = seen.frame_id if seen else prior.frame if prior else ""
+                own = seen.T_frame_object if seen else prior.T_frame_object if prior else IDENTITY
+                T_world_frame = self._frames.get(frame)
+                return T_world_frame @ own @ pose if T_world_frame else None
+            if prior is None:
+                return None
+            under = self._beliefs.get(prior.in_object)
+            T_holder = T_object_standing(under.item, prior.in_kind, prior.in_key) if under else None
+            if T_holder is None:
+                return None
+            pose, name = T_holder @ prior.T_frame_object @ pose, prior.in_object
+        return None
+
+
+def _may_hold(host: LabObject, T_world_host: Pose, seen_m: Vec3) -> bool:
+    x, y, z = T_world_host.inverse().apply(seen_m)
+    width, depth, height = host.size_m
+    radius_m = math.hypot(width, depth) / 2 + 2 * HEIGHT_M
+    return math.hypot(x, y) <= radius_m and -2 * HEIGHT_M <= z <= height + 2 * HEIGHT_M
+
+
+def _on(host: Standing, T_host_object: Pose, place: PlaceRef, moved_m: float, carried_by: str) -> Standing:
+    """Standing on a host, told in the frame in which the host is told."""
+    return Standing(
+        host.frame_id,
+        host.T_frame_object @ T_host_object,
+        host.T_world_object @ T_host_object,
+        place,
+        moved_m,
+        carried_by,
+    )
