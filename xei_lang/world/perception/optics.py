@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from xei_lang.ir.geometry import Pose
 from xei_lang.profiles.model import Camera
+from xei_lang.world.perception.pose_request import Intrinsics
 
 Array = NDArray[np.float64]
 
@@ -38,6 +39,12 @@ class Optics:
         matrix = np.array([[camera.fx, 0.0, camera.cx], [0.0, camera.fy, camera.cy], [0.0, 0.0, 1.0]])
         distortion = np.array(camera.distortion or (0.0,) * 5)
         return Optics(matrix, distortion, (camera.width, camera.height))
+
+    @staticmethod
+    def of_intrinsics(lens: Intrinsics) -> Optics:
+        """The optics of intrinsics that came with a picture."""
+        matrix = np.array([[lens.fx, 0.0, lens.cx], [0.0, lens.fy, lens.cy], [0.0, 0.0, 1.0]])
+        return Optics(matrix, np.array(lens.distortion or (0.0,) * 5), (lens.width, lens.height))
 
     def rays(self, points_px: Array) -> Array:
         """Undistorted image coordinates (n, 2), at a depth of 1 m in the optical frame, of pixels (n, 2)."""

@@ -1,0 +1,1 @@
+"""A pose service: HTTP around a backend that estimates poses from pictures."""
