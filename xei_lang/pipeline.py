@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from xei_lang.motion.verify import Checked
     from xei_lang.profiles.model import Profile
     from xei_lang.syntax.ast import Module
+    from xei_lang.world.sources import Observations
 
 Progress = Callable[[str, int, int], None]
 """Called by long passes with the pass's name, how much is done and how much there is."""
@@ -31,7 +32,8 @@ Progress = Callable[[str, int, int], None]
 class Request:
     """Everything that a compilation is a function of.
 
-    `outside` is given where several requests share what they read; else each reads for itself.
+    `outside` is given where several requests share what they read; else each reads for itself. `observed` is
+    what sources of the world said, the better ones later; without any, the profile's priors hold.
     """
 
     source: Source
@@ -46,6 +48,7 @@ class Request:
     seed: int = 0
     progress: Progress | None = None
     outside: Outside | None = None
+    observed: tuple[Observations, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -200,8 +203,20 @@ def _check(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
         files=files,
         parse=outside.parse,
     )
-    plan, said = check_module(made.module, request.source, made.profile, options)
+    profile = _as_observed(request, made.profile)
+    plan, said = check_module(made.module, request.source, profile, options)
     return replace(made, plan=plan, imported=files.sources), said
+
+
+def _as_observed(request: Request, profile: Profile) -> Profile:
+    """The profile with what was observed in the place of its priors. Contradictions are told by grounding."""
+    if not request.observed:
+        return profile
+    from xei_lang.world.ground import ground
+    from xei_lang.world.sources.believed import as_believed
+
+    world, _ = ground(profile, request.observed)
+    return profile if world is None else as_believed(profile, world)
 
 
 def _admit(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
@@ -214,11 +229,21 @@ def _admit(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
 
 
 def _ground(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
-    """Profile to `World`: where everything is, and who said so."""
+    """Profile and observations to `World`: where everything is, and who said so.
+
+    What the plan uses must be known surely enough, in strict mode by those who looked.
+    """
+    from xei_lang.world.drives import with_drives
     from xei_lang.world.ground import ground
+    from xei_lang.world.use import check_use
 
     assert made.profile is not None
-    world, said = ground(made.profile)
+    assert made.plan is not None
+    world, said = ground(made.profile, request.observed)
+    if world is not None:
+        used = check_use(made.plan, made.profile, world, request.observed, strict=request.strict)
+        world, unfit = with_drives(world, made.profile, made.plan)
+        said = (*said, *used, *unfit)
     return replace(made, world=world), said
 
 

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 from xei_lang import __version__
 from xei_lang.diagnostics import Source
+from xei_lang.doctor import deployment_blockers
 from xei_lang.export import scene
 from xei_lang.export.bundle import Content
-from xei_lang.doctor import deployment_blockers
 from xei_lang.export.manifest import Manifest, tool_versions
 from xei_lang.ir.forms import goals_json, plan_json, timed_json
 from xei_lang.ir.forms.canonical import dumps
@@ -23,6 +23,7 @@ from xei_lang.pipeline import Handoffs
 from xei_lang.profiles.model import Profile
 from xei_lang.profiles.open import robot_texts
 from xei_lang.runtime.handoffs import Handoffs as RunInputs
+from xei_lang.world.sources import Observations
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,16 +37,19 @@ class Compiled:
     world: World
     graph: MotionGoalGraph
     timed: TimedPlan
+    observed: tuple[Observations, ...] = ()
 
     @staticmethod
-    def of(source: Source, made: Handoffs) -> Compiled:
+    def of(source: Source, made: Handoffs, observed: tuple[Observations, ...] = ()) -> Compiled:
         """The handoffs of `xei_lang.pipeline.ALL`, none of which may be missing."""
         assert made.profile is not None
         assert made.plan is not None
         assert made.world is not None
         assert made.graph is not None
         assert made.timed is not None
-        return Compiled(source, made.imported, made.profile, made.plan, made.world, made.graph, made.timed)
+        return Compiled(
+            source, made.imported, made.profile, made.plan, made.world, made.graph, made.timed, observed
+        )
 
     def forms(self) -> dict[str, str]:
         """The plans in their fixed forms, by the file names that they have in a bundle."""
@@ -82,6 +86,7 @@ class Compiled:
             }
         )
         inputs.update({f"profile/{file}": digest for file, digest in self.profile.files})
+        inputs.update({_world_name(seen.source): seen.sha256 for seen in self.observed})
         blockers = deployment_blockers(self.profile)
         return Manifest(
             self.plan.protocol, self.profile.name, __version__, inputs, seed, tool_versions(), blockers
@@ -92,6 +97,12 @@ class Compiled:
         hashes = {name: _sha256(text) for name, text in self.forms().items()}
         urdf, _ = robot_texts(self.profile)
         return RunInputs(self.plan, self.graph, self.timed, self.world, self.profile, urdf, hashes)
+
+
+def _world_name(source: str) -> str:
+    """`world/scene_file/monday.yaml`, `world/pose_service/127.0.0.1:8765`."""
+    kind, _, name = source.partition(" ")
+    return f"world/{kind}/{name.partition('://')[2] or name}"
 
 
 def _sha256(text: str) -> str:

@@ -81,7 +81,7 @@ def write_all(stage: str | None, target: Path, request: Request, made: Handoffs,
     from xei_lang.export.bundle import write_bundle
 
     started = time.perf_counter()
-    compiled = Compiled.of(request.source, made)
+    compiled = Compiled.of(request.source, made, request.observed)
     contents = compiled.bundle_contents()
     if stage == "bag":
         contents = {name: content for name, content in contents.items() if name == "rosbag"}

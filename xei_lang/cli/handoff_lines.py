@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from xei_lang.pipeline import Handoffs, PassResult
+from xei_lang.world.ground import observers
 
 
 def handoff_line(result: PassResult) -> str:
@@ -42,7 +43,8 @@ def _world(made: Handoffs) -> tuple[str, str]:
     world = made.world
     assert world is not None
     objects, frames = _count(len(world.objects), "object"), _count(len(world.frames), "frame")
-    return "World", f"{objects} in {frames}, at {world.robot.station}"
+    seen = f", seen by {', '.join(asked)}" if (asked := observers(world)) else ""
+    return "World", f"{objects} in {frames}, at {world.robot.station}{seen}"
 
 
 def _graph(made: Handoffs) -> tuple[str, str]:

@@ -14,6 +14,9 @@ import click
 
 Pairs = tuple[tuple[str, str], ...]
 
+PROFILE_WORLD = "profile"
+"""The `--world` that asks nobody but the profile."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Options:
@@ -69,6 +72,13 @@ _SHARED = (
     ),
     click.option("--profile", type=click.Path(path_type=Path), help="Folder of the profile to use."),
 )  # fmt: skip
+
+
+world_option = click.option(
+    "--world", metavar="SOURCE", default=PROFILE_WORLD, show_default=True,
+    help="Who says where things are: `profile`, or a scene file, which overrides it.",
+)  # fmt: skip
+"""For commands that ground the world; they receive it as `world`."""
 
 
 def _pairs(option: str, values: tuple[str, ...]) -> Pairs:

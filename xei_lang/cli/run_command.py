@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, TextIO
 import click
 
 from xei_lang.cli.exit_codes import RUN_STOPPED, WRONG_USAGE
-from xei_lang.cli.options import Options, compiling
+from xei_lang.cli.options import Options, compiling, world_option
 from xei_lang.cli.session import Session, open_session
 from xei_lang.diagnostics import Diagnostic, Diagnostics
 from xei_lang.ir.trace import TraceEvent
@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     show_default=True,
     help="Fraction of the planned speed.",
 )
+@world_option
 @compiling
 def command(
     *,
@@ -54,6 +55,7 @@ def command(
     trace_path: Path | None,
     answers_path: Path | None,
     speed: float,
+    world: str,
     options: Options,
 ) -> None:  # fmt: skip
     """Execute a protocol, write its trace, and stop on the first failure.
@@ -62,7 +64,7 @@ def command(
     """
     if math.isnan(speed):
         raise click.BadParameter("nan is no speed", param_hint="--speed")
-    session = open_session(file, options, allow_unmapped=True)
+    session = open_session(file, options, allow_unmapped=True).grounded_by(world)
     given, problems = _answers(answers_path)
     code = session.show(problems)
     if code:

@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from xei_lang.cli.exit_codes import INPUT_HAS_ERRORS
-from xei_lang.cli.options import Options
+from xei_lang.cli.options import PROFILE_WORLD, Options
 from xei_lang.cli.progress import Bar
 from xei_lang.cli.report import exit_code, show
 from xei_lang.diagnostics import Diagnostics, Source, Sources
-from xei_lang.pipeline import Handoffs, Pass, PassResult, Request, compile_request
+from xei_lang.pipeline import FRONT, Handoffs, Pass, PassResult, Request, compile_request
 from xei_lang.profiles.compiled import default_cache
 from xei_lang.syntax.reading import read_source
 
@@ -54,6 +54,21 @@ class Session:
         if outcome.stopped_at is not None:
             sys.exit(exit_code(outcome.diagnostics) or INPUT_HAS_ERRORS)
         return outcome.made
+
+    def grounded_by(self, world: str) -> Session:
+        """The same, with what the source that `--world` names says of the world. Where the protocol's profile
+        cannot be had, the passes will tell; exits where the source cannot be believed.
+        """
+        if world == PROFILE_WORLD:
+            return self
+        from xei_lang.cli.worlds import observed_by
+
+        profile = compile_request(self.request, FRONT[:2]).made.profile
+        observed, said = observed_by(world, profile) if profile is not None else ((), ())
+        code = self.show(said)
+        if code:
+            sys.exit(code)
+        return replace(self, request=replace(self.request, observed=observed))
 
 
 def open_session(file: Path, options: Options, *, allow_unmapped: bool, strict: bool = False) -> Session:

@@ -59,6 +59,7 @@ class _Bank:
             occupies=tuple(model.occupies),
             touchable=model.touchable,
             occupies_span=self.root.key_span(*path, "occupies") if model.occupies else None,
+            min_confidence=model.min_confidence,
         )
 
     def returned(self, model: ReturnModel, path: Path) -> ReturnSpec:

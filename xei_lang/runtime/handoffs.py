@@ -8,14 +8,12 @@ from dataclasses import dataclass
 
 from xei_lang.ir.geometry import Pose
 from xei_lang.ir.goals import Attach, Detach, MotionGoalGraph
-from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, SkillPlan, Value
+from xei_lang.ir.skill_plan import SkillPlan
 from xei_lang.ir.timed import TimedPlan
 from xei_lang.ir.world import World
 from xei_lang.profiles.model import Profile
 from xei_lang.runtime.failure import Failure, failure
-
-MIN_CONFIDENCE = 0.5
-"""An object that the grounding is less sure of than this is not handled; a plain prior gives 0.6."""
+from xei_lang.world.use import MIN_CONFIDENCE, uses
 
 TIME_TOLERANCE_S = 1e-6
 
@@ -85,7 +83,7 @@ def check_scene(given: Handoffs) -> Failure | None:
 
 def check_grounding(given: Handoffs) -> Failure | None:
     """Every object that the plan handles is in the world, in a known frame, and sure enough."""
-    for name, step_id in _handled(given):
+    for name, step_id, needed in _handled(given):
         found = given.world.find(name)
         if found is None:
             return failure(
@@ -94,12 +92,12 @@ def check_grounding(given: Handoffs) -> Failure | None:
                 f"`{name}` of step `{step_id}` is not in the world",
                 help="ground the scene again, or give it a prior in usage_profile.yaml",
             )
-        if found.confidence < MIN_CONFIDENCE:
+        if found.confidence < needed:
             return failure(
                 "world_grounding",
                 "XEI0903",
                 f"the place of `{name}` is known with confidence {found.confidence:g} only",
-                note=f"step `{step_id}` handles it, which needs {MIN_CONFIDENCE:g}",
+                note=f"step `{step_id}` handles it, which needs {needed:g}",
                 help="let the perception ground it again",
             )
         if found.frame_id != "world" and given.world.frame(found.frame_id) is None:
@@ -111,24 +109,13 @@ def check_grounding(given: Handoffs) -> Failure | None:
     return None
 
 
-def _handled(given: Handoffs) -> Iterator[tuple[str, str]]:
-    for step in given.plan.steps:
-        for argument in step.args:
-            for name in _objects(argument.value):
-                yield name, step.step_id
+def _handled(given: Handoffs) -> Iterator[tuple[str, str, float]]:
+    """Objects with the step that handles them, and how surely that must know where they are."""
+    for use in uses(given.plan, given.profile):
+        yield use.name, use.step.step_id, use.needed
     for goal in given.graph.goals:
         if isinstance(goal.action, (Attach, Detach)):
-            yield goal.action.object, goal.step_id
-
-
-def _objects(value: Value) -> Iterator[str]:
-    if isinstance(value, ObjectRef):
-        yield value.name
-    elif isinstance(value, PlaceRef):
-        yield value.object
-    elif isinstance(value, tuple):
-        for item in value:
-            yield from _objects(item)
+            yield goal.action.object, goal.step_id, MIN_CONFIDENCE
 
 
 def _near(a: Pose, b: Pose, position_m: float, rotation_rad: float) -> bool:

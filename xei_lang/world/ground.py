@@ -62,7 +62,8 @@ def static_frames(profile: Profile) -> Mapping[str, Pose]:
 
 def _grounded(one: Known) -> WorldObject:
     known, standing, item = one.belief, one.standing, one.belief.item
-    moved = (("seen.moved_mm", f"{standing.moved_m * 1000:.1f}"),) if known.seen and standing.moved_m else ()
+    moved_mm = f"{standing.moved_m * 1000:.1f}"
+    moved = () if moved_mm == "0.0" else (("seen.moved_mm", moved_mm),)
     return WorldObject(
         name=item.name,
         T_frame_object=standing.T_frame_object,
@@ -92,6 +93,11 @@ def _provenance(one: Known) -> Iterator[tuple[str, str]]:
 def _carried(one: Known) -> str:
     carrier = one.standing.carried_by
     return f", moved with {carrier}" if carrier else ""
+
+
+def observers(world: World) -> tuple[str, ...]:
+    """The sources that were asked besides the profile."""
+    return tuple(source for source in world.sources if source not in SOURCES)
 
 
 def is_prior(item: WorldObject) -> bool:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from xei_lang.ir.geometry import Pose
 from xei_lang.ir.world import World
-from xei_lang.profiles.grid import T_frame_object, T_object_slot
+from xei_lang.profiles.grid import T_object_slot
 from xei_lang.profiles.model import LabObject, Profile
 from xei_lang.world.transforms import Transform, lookup
 
@@ -38,11 +38,11 @@ def slot_precision(
 
     The bench is taken to be grounded by a camera wherever that is better than the way over the docked base.
     """
-    grid, placed, T_holder_slot = holder.slots, T_frame_object(profile, holder), T_object_slot(holder, key)
+    grid, placed, T_holder_slot = holder.slots, world.find(holder.name), T_object_slot(holder, key)
     if grid is None or placed is None or T_holder_slot is None:
         return None
-    frame, T_frame_holder = placed
-    T_world_slot = world.T_world_frame(frame) @ T_frame_holder @ T_holder_slot
+    frame = placed.frame_id
+    T_world_slot = world.T_world_frame(frame) @ placed.T_frame_object @ T_holder_slot
     ways = [_way(world, end, T_world_slot) for end in (frame, *_cameras(world, profile))]
     best = min(ways, key=lambda way: way.position_tolerance_m)
     capture_m = (grid.bore_m - max(item.size_m[:2])) / 2 + grid.chamfer_m

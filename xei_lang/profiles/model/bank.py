@@ -79,7 +79,8 @@ class SkillSpec(Record):
     """A registered skill: its contract and its template.
 
     While an instrument carries it out, it holds the objects of the arguments `occupies`, and what stands in
-    or on them; `touchable` says that these may be worked with all the same.
+    or on them; `touchable` says that these may be worked with all the same. `min_confidence` is how surely
+    it must be known where its objects are, None where it asks for no more than every skill does.
     """
 
     name: str
@@ -100,6 +101,7 @@ class SkillSpec(Record):
     occupies: tuple[str, ...] = ()
     touchable: bool = False
     occupies_span: Span | None = None
+    min_confidence: float | None = None
 
     def arg(self, name: str) -> ArgSpec | None:
         """The argument of this name, or None."""

@@ -9,6 +9,7 @@ from pydantic_core import CoreSchema, core_schema
 
 from xei_lang.profiles.schema.values import (
     AnyQuantity,
+    Fraction01,
     Model,
     Name,
     OperationValue,
@@ -111,7 +112,9 @@ class ReturnModel(Model):
 
 
 class SkillModel(Model):
-    """A skill's contract and its template."""
+    """A skill's contract and its template. `min_confidence` is how surely it must be known where its objects
+    are.
+    """
 
     owner: Name
     summary: Text
@@ -120,6 +123,7 @@ class SkillModel(Model):
     returns: ReturnModel | None = None
     occupies: list[Name] = Field(default=[])
     touchable: bool = False
+    min_confidence: Fraction01 | None = None
     requires: list[Text] = Field(default=[])
     ensures: list[Text] = Field(default=[])
     duration: Duration

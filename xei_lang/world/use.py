@@ -1,0 +1,105 @@
+"""Whether what is known of the objects that a plan uses is known well enough to use them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from xei_lang.diagnostics import Diagnostic, Diagnostics
+from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, SkillPlan, Step, Value
+from xei_lang.ir.world import World, WorldObject
+from xei_lang.profiles.model import Profile
+from xei_lang.world.ground import is_prior
+from xei_lang.world.sources.observation import Observations
+
+MIN_CONFIDENCE = 0.5
+"""An object that the grounding is less sure of than this is not handled; a plain prior gives 0.6. The one
+default of all skills, at compilation and before a run.
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Use:
+    """The first step that uses an object, and how surely the object's place must be known for all of them."""
+
+    name: str
+    step: Step
+    needed: float
+
+
+def needed_confidence(profile: Profile, skill: str) -> float:
+    """How surely it must be known where the objects of a skill are."""
+    found = profile.bank.skill(skill)
+    asked = found.min_confidence if found is not None else None
+    return MIN_CONFIDENCE if asked is None else asked
+
+
+def uses(plan: SkillPlan, profile: Profile) -> tuple[Use, ...]:
+    """Each object that arguments of the plan name, in the plan's order; a place uses what it belongs to.
+
+    The step is the one that asks for the most, of several the first.
+    """
+    found: dict[str, Use] = {}
+    for step in plan.steps:
+        needed = needed_confidence(profile, step.skill)
+        for argument in step.args:
+            for name in _objects(argument.value):
+                if name not in found or found[name].needed < needed:
+                    found[name] = Use(name, step, needed)
+    return tuple(found.values())
+
+
+def check_use(
+    plan: SkillPlan, profile: Profile, world: World, observed: tuple[Observations, ...], *, strict: bool
+) -> Diagnostics:
+    """An error for each object that a step uses and that is known too little: with too low a confidence, or
+    in strict mode by a prior only.
+    """
+    found: list[Diagnostic] = []
+    for use in uses(plan, profile):
+        item = world.find(use.name)
+        known = profile.object(use.name)
+        if item is None or known is None:
+            continue
+        if item.confidence < use.needed:
+            found.append(_unsure(use, item))
+        elif strict and not known.system and is_prior(item):
+            found.append(_unseen(use, item, observed))
+    return tuple(found)
+
+
+def _unsure(use: Use, item: WorldObject) -> Diagnostic:
+    return Diagnostic(
+        "XEI0661",
+        f"`{use.name}` is not known surely enough to be used",
+        use.step.span,
+        label=f"confidence {item.confidence:g}, and `{use.step.skill}` needs {use.needed:g}",
+        notes=(f"its confidence is from {dict(item.provenance)['confidence']}",),
+        help=("look for it again, and compile with what was seen: `--world`",),
+    )
+
+
+def _unseen(use: Use, item: WorldObject, observed: tuple[Observations, ...]) -> Diagnostic:
+    asked = ", ".join(source.source for source in observed)
+    notes = (
+        f"its place is from {dict(item.provenance)['pose']}",
+        f"not seen by {asked}" if asked else "nobody was asked who has looked: there is no `--world`",
+    )
+    return Diagnostic(
+        "XEI0662",
+        f"nobody has seen `{use.name}`",
+        use.step.span,
+        label="with `--strict`, nothing is taken from a prior",
+        notes=notes,
+        help=("record the scene or ask the pose service: `--world scene.yaml`, `--world http://...`",),
+    )
+
+
+def _objects(value: Value) -> Iterator[str]:
+    if isinstance(value, ObjectRef):
+        yield value.name
+    elif isinstance(value, PlaceRef):
+        yield value.object
+    elif isinstance(value, tuple):
+        for item in value:
+            yield from _objects(item)
