@@ -14,8 +14,10 @@ from tests.check.checking import check, rendered, rendered_plan
 from xei_lang.diagnostics import CATALOGUE
 
 PAGES = sorted((Path(__file__).parent / "errors").glob("*.md"))
-ELSEWHERE = {"XEI0204", "XEI0321"}
-"""What no profile that loads, and no text of a bearable length, can show: see test_expand.py."""
+ELSEWHERE = {"XEI0125", "XEI0321"}
+"""What the command line says of a baseline (tests/cli), and what no text of a bearable length can show: see
+test_expand.py.
+"""
 
 
 def produce(text: str) -> str:

@@ -144,7 +144,8 @@ class Writer:
     def statement(self, depth: int) -> Words:
         match self.number(0, 7):
             case 0:
-                return ["let", self.pick(NAMES), "=", *self.value(depth)]
+                others = [word for _ in range(self.number(0, 2)) for word in (",", self.pick(NAMES))]
+                return ["let", self.pick(NAMES), *others, "=", *self.value(depth)]
             case 1:
                 return ["require", *self.value(depth)]
             case 2:

@@ -27,6 +27,7 @@ from xei_lang.check.run_time import needs_of
 from xei_lang.check.scope import Scope
 from xei_lang.check.state import State
 from xei_lang.check.transfers import apply_transfers
+from xei_lang.check.unpack import unpack
 from xei_lang.check.until import repeat_until
 from xei_lang.check.values import Interval, nominal, to_plan
 from xei_lang.diagnostics import Span
@@ -134,7 +135,7 @@ class Expander:
                 self._step(member, scope, where)
             case Let():
                 value = self.context.evaluator.value(member.value, scope)
-                scope.declare(member.name, "variable", value, self.context.reporter)
+                unpack(member.names, value, scope, self.context.reporter, member.value.span)
             case Note() | Unmapped():
                 self.plan.remark(member, where.origin)
             case Require():

@@ -12,13 +12,13 @@ from xei_lang.check.budget import Budget
 from xei_lang.check.report import Reporter
 from xei_lang.check.run_time import known_now
 from xei_lang.check.scope import Scope
+from xei_lang.check.unpack import unpack
 from xei_lang.check.value_habits import NO_MEND, slot_of
 from xei_lang.check.values import (
     POISON,
     ListValue,
     Numeric,
     ObjectValue,
-    RecordValue,
     Val,
     kind,
     nominal,
@@ -182,7 +182,7 @@ class Lists:
         made: list[Val] = []
         for item in source:
             inner = scope.child()
-            if not self.unpack(node.names, item, inner, node.iterable.span):
+            if not unpack(node.names, item, inner, self._reporter):
                 return POISON
             keep = True if node.condition is None else self._evaluate(node.condition, inner)
             if node.condition is not None:
@@ -213,30 +213,6 @@ class Lists:
                 "expected a list or a range such as `1 .. 4`",
             )
         return None
-
-    def unpack(self, names: tuple[Name, ...], item: Val, scope: Scope, span: Span) -> bool:
-        """Give the names of a loop their values for one turn."""
-        if len(names) == 1:
-            scope.declare(names[0], "loop variable", item, self._reporter)
-            return True
-        parts: Sequence[Val] = item.items if isinstance(item, ListValue) else ()
-        if item is POISON:
-            parts = [POISON] * len(names)
-        if len(parts) != len(names):
-            found = f"{len(parts)} values" if isinstance(item, ListValue) else kind(item)
-            self._wrong(
-                "XEI0314",
-                f"{len(names)} names for {found} in each turn",
-                names[0].span.join(names[-1].span),
-                f"each turn gives {found}",
-                ("`row.column` is a cell of the row",)
-                if isinstance(item, RecordValue)
-                else ("`zip(a, b)` gives two values in each turn",),
-            )
-            return False
-        for name, part in zip(names, parts, strict=True):
-            scope.declare(name, "loop variable", part, self._reporter)
-        return True
 
     def _wrong(self, code: str, message: str, span: Span, label: str = "", help: tuple[str, ...] = ()) -> Val:
         self._reporter.report(code, message, span, label, help=help)

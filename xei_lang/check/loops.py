@@ -11,6 +11,7 @@ from xei_lang.check.overlap import Overlap
 from xei_lang.check.plan_builder import Where
 from xei_lang.check.run_time import known_now
 from xei_lang.check.scope import Scope
+from xei_lang.check.unpack import unpack
 from xei_lang.check.values import POISON, Val, kind, nominal, show
 from xei_lang.diagnostics import Span
 from xei_lang.syntax.ast import Call, CallExpr, For, If, Let, Name, Repeat, Step, walk
@@ -92,11 +93,8 @@ def turn(
 ) -> Scope:
     """Expand one turn, which has its own names; they are returned."""
     inner = scope.child()
-    lists = expander.context.evaluator.lists
-    if isinstance(loop, For) and not lists.unpack(loop.names, item, inner, loop.iterable.span):
-        for name in loop.names:
-            if inner.find(name.id) is None:
-                inner.declare(name, "loop variable", POISON, expander.context.reporter)
+    if isinstance(loop, For):
+        unpack(loop.names, item, inner, expander.context.reporter)
     expander.labels.open()
     if step.label is None:
         names = expander.block(loop.body, inner, where.in_turn(number))
@@ -132,7 +130,7 @@ def is_regular(expander: Expander, loop: For | Repeat) -> bool:
     """Whether each turn makes as many steps as the first: nothing in the body counts by the turn."""
     names: set[str] = {name.id for name in loop.names} if isinstance(loop, For) else set()
     nodes = list(walk(loop.body))
-    names |= {node.name.id for node in nodes if isinstance(node, Let)}
+    names |= {name.id for node in nodes if isinstance(node, Let) for name in node.names}
     for node in nodes:
         if (
             isinstance(node, If)

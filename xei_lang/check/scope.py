@@ -10,7 +10,9 @@ from xei_lang.check.values import POISON, Val
 from xei_lang.diagnostics import Label, Span
 from xei_lang.syntax.ast import Name
 
-SymbolKind = Literal["object", "parameter", "variable", "loop variable", "measurement", "table"]
+SymbolKind = Literal[
+    "object", "parameter", "variable", "part of a list", "loop variable", "measurement", "table"
+]
 _SHOULD_BE_USED = ("object", "parameter", "variable", "table")
 
 

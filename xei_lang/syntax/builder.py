@@ -175,7 +175,10 @@ class Builder(ExpressionBuilder):
     # ---- statements that are no steps ----
 
     def on_let(self, c: list[Any]) -> ast.Let:
-        return ast.Let(self.declared(c[1]), c[3], self.span(c[0].start, c[3].span.end))
+        names, value = c[1:-2:2], c[-1]
+        return ast.Let(
+            tuple(self.declared(name) for name in names), value, self.span(c[0].start, value.span.end)
+        )
 
     def on_require(self, c: list[Any]) -> ast.Require:
         return ast.Require(c[1], self.span(c[0].start, c[1].span.end))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -26,10 +27,7 @@ def find_habit(before: Sequence[Token], token: Token, text: str) -> Habit | None
 
 def _around_name(before: Sequence[Token], token: Token, text: str) -> Habit | None:
     previous = before[-1]
-    if token.text == ":" and previous.kind == "NAME" and len(before) > 1 and before[-2].text in "(,":
-        message = f"the argument `{previous.text}` is given with `:`"
-        return Habit(message, "expected `=`", token.start, token.end, (f"write `{previous.text}=...`",), "=")
-    if token.text == ":" and previous.kind == "NAME" and len(before) > 1 and before[-2].text == "let":
+    if token.text == ":" and previous.kind == "NAME" and _are_of_let(before):
         return Habit(
             f"`{previous.text}` is given a type, which a `let` does not have",
             "expected `=`",
@@ -37,6 +35,11 @@ def _around_name(before: Sequence[Token], token: Token, text: str) -> Habit | No
             token.end,
             ("leave the type out: a `let` has that of its value",),
         )
+    if token.text == ":" and previous.kind == "NAME" and len(before) > 1 and before[-2].text in "(,":
+        message = f"the argument `{previous.text}` is given with `:`"
+        return Habit(message, "expected `=`", token.start, token.end, (f"write `{previous.text}=...`",), "=")
+    if token.text in ("(", ",", "["):
+        return _several_names(previous, token, text)
     if token.text in ("=", ":=", "+=", "-=") and previous.kind == "NAME":
         return _assignment(before, token, text)
     if token.kind == "COMPARISON" and any(other.kind == "COMPARISON" for other in before[-4:-1]):
@@ -48,6 +51,35 @@ def _around_name(before: Sequence[Token], token: Token, text: str) -> Habit | No
             ("write two of them: `a < b and b < c`",),
         )
     return None
+
+
+def _are_of_let(before: Sequence[Token]) -> bool:
+    """Whether the last token is a name of `let a, b`."""
+    place = len(before) - 2
+    while place > 0 and before[place].text == "," and before[place - 1].kind == "NAME":
+        place -= 2
+    return place >= 0 and before[place].text == "let"
+
+
+_NAMES = r"[A-Za-z_]\w*(?:[ \t]*,[ \t]*[A-Za-z_]\w*){0,7}"
+_ENCLOSED = re.compile(rf"[(\[][ \t]*({_NAMES})[ \t]*,?[ \t]*[)\]](?=[ \t]*(?:=|in\b))")
+_ASSIGNED = re.compile(rf"({_NAMES})[ \t]*=(?!=)")
+
+
+def _several_names(previous: Token, token: Token, text: str) -> Habit | None:
+    """`let (a, b) = pair`, `for (a, b) in pairs`, and `a, b = pair` as in Python."""
+    if previous.text in ("let", "for"):
+        found = _ENCLOSED.match(text, token.start)
+        message = f"the names of a `{previous.text}` stand without parentheses"
+        help_ = (f"write `{previous.text} {found[1]}`",) if found else ()
+        return found and Habit(message, "expected a name", found.start(), found.end(), help_, found[1])
+    line = text[text.rfind("\n", 0, previous.start) + 1 : previous.start]
+    found = _ASSIGNED.match(text, previous.start) if token.text == "," and not line.strip(" \t{}") else None
+    if found is None or found.end(1) == previous.end:
+        return None
+    names, help_ = found[1], f"write `let {found[1]} = ...`; a name keeps its value"
+    message, label = f"`{names}` are given values without `let`", "no assignment can stand here"
+    return Habit(message, label, found.start(), found.end(), (help_,), f"let {names} =")
 
 
 _CONDITIONS = frozenset({"if", "require", "until", "keep", "given", "and", "or", "not"})

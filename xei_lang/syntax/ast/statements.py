@@ -213,9 +213,9 @@ class Step(Shown):
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Let(Shown):
-    """`let name = value`."""
+    """`let name = value`; several names take a list apart."""
 
-    name: Name
+    names: tuple[Name, ...]
     value: Expression
     span: Span
 

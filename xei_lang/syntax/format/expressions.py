@@ -138,11 +138,15 @@ class ExpressionPrinter:
 
     def binding(self, node: ast.Comprehension | ast.For) -> Doc:
         """`a, b in values`."""
-        take = self.cursor.take
-        parts = [take()]
-        for _ in node.names[1:]:
-            parts += [self.cursor.comma(), SPACE, take()]
-        return cat(*parts, SPACE, take("in"), SPACE, self.value(node.iterable))
+        names, take = self.names(node.names), self.cursor.take
+        return cat(names, SPACE, take("in"), SPACE, self.value(node.iterable))
+
+    def names(self, names: tuple[ast.Name, ...]) -> Doc:
+        """`a, b`."""
+        parts = [self.cursor.take()]
+        for _ in names[1:]:
+            parts += [self.cursor.comma(), SPACE, self.cursor.take()]
+        return cat(*parts)
 
     def range(self, node: ast.Range) -> Doc:
         """`low .. high step by`."""

@@ -51,7 +51,7 @@ class StatementPrinter(ExpressionPrinter):
             case ast.Step():
                 return self._step(node)
             case ast.Let():
-                return spaced(take("let"), take(), take("="), self.value(node.value))
+                return spaced(take("let"), self.names(node.names), take("="), self.value(node.value))
             case ast.Require():
                 return spaced(take("require"), self.value(node.condition))
             case ast.Unmapped():
