@@ -4,35 +4,16 @@ fragile`).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from itertools import product
 
 from xei_lang.check.registry import Registry, role_names
 from xei_lang.check.values import ObjectValue
 from xei_lang.profiles.model import LabObject
+from xei_lang.profiles.roles import fits, holds
 from xei_lang.syntax.ast import Generic, Role, RoleAnd, RoleNot, RoleOr, TypeExpr
 
 _MOST_FREE_ROLES = 12
-
-
-def holds(expression: TypeExpr, has: Callable[[str], bool]) -> bool:
-    """Whether the expression is true of something of which `has` tells the roles."""
-    match expression:
-        case Role():
-            return has(expression.id)
-        case RoleAnd():
-            return holds(expression.left, has) and holds(expression.right, has)
-        case RoleOr():
-            return holds(expression.left, has) or holds(expression.right, has)
-        case RoleNot():
-            return not holds(expression.operand, has)
-        case Generic():
-            return False
-
-
-def fits(expression: TypeExpr, roles: tuple[str, ...]) -> bool:
-    """Whether something with just these roles meets the expression."""
-    return holds(expression, roles.__contains__)
 
 
 def unmet(expression: TypeExpr, roles: Iterable[str]) -> str:

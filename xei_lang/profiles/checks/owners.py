@@ -1,0 +1,52 @@
+"""Parts that the robot lacks (XEI0645): of a skill's owner, and of the lines of its template."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from types import MappingProxyType
+
+from xei_lang.diagnostics import Diagnostic
+from xei_lang.ir.goals import GoalKind
+from xei_lang.profiles.model import Profile
+from xei_lang.profiles.trees import Trees
+
+PARTS: Mapping[GoalKind, str] = MappingProxyType(
+    {
+        "slide_move": "slide",
+        "nav_to_pose": "base",
+        "perceive": "perception",
+        "set_do": "io",
+        "confirm": "person",
+        "instrument": "instrument",
+    }
+)
+"""The part that performs a goal, where it is no arm."""
+
+_OF_ARMS = ("arm", "gripper")
+
+
+def check_owners(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
+    """Owners that need an arm where there is none, and goals whose part is not among the owners."""
+    bank = profile.bank
+    prismatic = any(joint.kind == "prismatic" for joint in profile.robot.joints)
+    for skill in bank.skills:
+        needs_arm = skill.owner in _OF_ARMS and not bank.arms
+        if needs_arm or (skill.owner == "slide" and not prismatic):
+            lacks = "has no arms" if needs_arm else "has no joint that slides"
+            yield Diagnostic(
+                "XEI0645",
+                f"`{skill.name}` belongs to the {skill.owner}, and the robot {lacks}",
+                trees.of_skill(skill.name, "owner"),
+                label=f"this robot {lacks}",
+                help=("name the part in `robot`, or take the skill out of the bank",),
+            )
+        for line in skill.template:
+            part = PARTS.get(line.kind, "")
+            if part and part not in bank.owners:
+                yield Diagnostic(
+                    "XEI0645",
+                    f"`{line.kind}` in the template of `{skill.name}` needs a part that the robot lacks",
+                    line.span,
+                    label=f"`{part}` is not among the robot's `owners`",
+                    help=(f"add `{part}` to `owners` if the robot has it, or leave the line out",),
+                )
