@@ -134,3 +134,16 @@ def test_the_text_counts_what_stands_before_each_stage() -> None:
         "lab: 2 blockers before a run on hardware",
     ]
     assert to_text("lab", [], {}) == "lab: nothing stands in the way\n"
+
+
+def test_a_camera_needs_all_its_topics_and_a_robot_its_sensors(lab: Path, change: Change) -> None:
+    text = (lab / "calibration_profile.yaml").read_text(encoding="utf-8")
+    [topics] = [line for line in text.splitlines() if line.startswith("    topics: {rgb:")]
+    change("calibration_profile.yaml", topics, "    topics: {rgb: /camera/color, depth: camera//depth}")
+    change("calibration_profile.yaml", text[text.index("\nlidars:") :], "\n")
+    told = {item: (one.status, one.blocks) for item, one in found(lab).items() if one.code == "XEI0689"}
+    assert told == {
+        "cameras.head.topics.depth": ("no topic", "hardware"),
+        "cameras.head.topics.info": ("missing", "hardware"),
+        "lidars": ("missing", "hardware"),
+    }
