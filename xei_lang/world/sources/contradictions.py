@@ -56,7 +56,9 @@ def contradictions(
             yield from _outside(profile, one)
             yield from _below(profile, one, frames)
     for first, second, depth_m in _overlaps(known):
-        if frozenset((first.name, second.name)) not in shared:
+        pair, carriers = frozenset((first.name, second.name)), frozenset((_carrier(first), _carrier(second)))
+        if pair not in shared and (pair == carriers or carriers not in shared):
+            shared |= {pair, carriers}
             message = f"`{first.name}` and `{second.name}` would stand in each other"
             yield _error(first, message, f"overlap by {_mm(depth_m)}", second)
 
@@ -100,6 +102,7 @@ def _below(profile: Profile, one: Known, frames: Mapping[str, Pose]) -> Iterator
 
 def _overlaps(known: tuple[Known, ...]) -> Iterator[tuple[Known, Known, float]]:
     """Pairs of which one at least was moved by what was seen, with how deep they are in each other."""
+    known = tuple(sorted(known, key=lambda one: (bool(one.standing.carried_by), one.name)))
     bodies = [(one, solids_at(one.belief.item, one.standing.T_world_object)) for one in known]
     balls = [_ball(one) for one in known]
     for index, (first, parts) in enumerate(bodies):
@@ -118,6 +121,11 @@ def _overlaps(known: tuple[Known, ...]) -> Iterator[tuple[Known, Known, float]]:
 def _depth_m(a: Upright, b: Upright) -> float:
     apart = a.lower_m >= b.upper_m or b.lower_m >= a.upper_m
     return 0.0 if apart else overlap_m(a, b)
+
+
+def _carrier(one: Known) -> str:
+    """What takes it along: a rack in the way is told of once, and not for each tube in it."""
+    return one.standing.carried_by or one.name
 
 
 def _stands_in(one: Known, host: Known) -> bool:

@@ -45,7 +45,7 @@ class SceneFileSource:
             model = SceneFile.model_validate(root.plain())
         except ValidationError as error:
             return None, tuple(_recoded(fault) for fault in explain(error, root, SceneFile))
-        found = [*_other_registry(model, profile, root)]
+        found = [*_other_registry(model, profile, root), *_stamp_faults(model, root)]
         items = [_observation(name, item, model, root, found) for name, item in model.objects.items()]
         if found:
             return None, tuple(found)
@@ -68,14 +68,23 @@ def _other_registry(model: SceneFile, profile: Profile, root: Node) -> list[Diag
         message = f"the scene was recorded for the profile `{model.profile}`"
         label = f"expected `{profile.name}`"
         return [Diagnostic(_OTHER_REGISTRY, message, root.span_of("profile"), label, help=help_)]
-    now = objects_sha256(profile)
-    if model.objects_sha256 != now:
+    if model.objects_sha256 != objects_sha256(profile):
         message = f"the scene was recorded for other objects than `{profile.name}` has now"
         notes = ("names, roles, shapes, slots, spots or states have changed since",)
         span = root.span_of("objects_sha256")
-        label = f"expected {now[:12]}..."
+        label = f"not the digest of the objects of `{profile.name}`"
         return [Diagnostic(_OTHER_REGISTRY, message, span, label, notes=notes, help=help_)]
     return []
+
+
+def _stamp_faults(model: SceneFile, root: Node) -> list[Diagnostic]:
+    stamps = [(("stamp",), model.stamp)]
+    stamps += [(("objects", name, "stamp"), item.stamp) for name, item in model.objects.items()]
+    return [
+        Diagnostic(_FORM, f"`{stamp}` is no time", root.span_of(*path), "no calendar has it")
+        for path, stamp in stamps
+        if stamp is not None and _nanoseconds(stamp) is None
+    ]
 
 
 def _observation(
