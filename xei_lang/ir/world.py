@@ -54,13 +54,32 @@ class RobotState:
 
 
 @dataclass(frozen=True, slots=True)
+class Drive:
+    """The way of the base from a station to another by the map: straight legs and turns in place.
+
+    `poses` are (x, y, yaw) of the base in `world` (m, rad), one after each leg or turn; `length_m` is the
+    length of all legs, `turn_rad` the sum of all turns.
+    """
+
+    start: str
+    goal: str
+    poses: tuple[Vec3, ...]
+    length_m: float
+    turn_rad: float
+
+
+@dataclass(frozen=True, slots=True)
 class World:
-    """World grounding: frames, objects (sorted by name) and the robot's state. `world` is the root frame."""
+    """World grounding: frames, objects (sorted by name) and the robot's state. `world` is the root frame.
+
+    `drives` are the ways between stations that the map is known to leave; empty where there is no map.
+    """
 
     frames: tuple[Frame, ...]
     objects: tuple[WorldObject, ...]
     robot: RobotState
     sources: tuple[str, ...] = ()
+    drives: tuple[Drive, ...] = ()
 
     def find(self, name: str) -> WorldObject | None:
         """The object of this name, or None."""

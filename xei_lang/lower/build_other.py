@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from xei_lang.ir.goals import Confirm, Instrument, NavToPose, Perceive, SetDo, SlideMove, Wait
+import math
+from dataclasses import replace
+
+from xei_lang.ir.goals import Confirm, Instrument, NavToPose, Parameter, Perceive, SetDo, SlideMove, Wait
 from xei_lang.ir.skill_plan import ObjectRef
 from xei_lang.lower.draft import Builder, Draft, contacts
+from xei_lang.lower.look import look_height
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.task import Task, refuse_template
 from xei_lang.profiles.model import TemplateStep
 
 _WHOLE_ROBOT = ("base", "left_arm", "right_arm", "slide")
+_BY_MAP = "the quickest way of straight legs and turns in place that the map leaves the base"
 
 
 def _slide_move(task: Task, line: TemplateStep) -> Draft:
@@ -18,6 +23,10 @@ def _slide_move(task: Task, line: TemplateStep) -> Draft:
     if attribute == "slide":
         action = SlideMove(task.station(argument, line).slide_m)
         return _draft(task, line, action, ("slide",))
+    if attribute == "look_height":
+        height, told = look_height(task, argument, line)
+        draft = _draft(task, line, SlideMove(height.si("Length")), ("slide",))
+        return replace(draft, parameters=told)
     setting = task.setting(name, None, line)
     height_m, joint = setting.si("Length"), task.profile.robot.joint("slide_joint")
     if joint is not None and not joint.lower - 1e-9 <= height_m <= joint.upper + 1e-9:
@@ -42,15 +51,31 @@ def _nav_to_pose(task: Task, line: TemplateStep) -> Draft:
         calibration.docking_rotation_tolerance_rad,
     )
     after = task.scene.drive(station.name, station.T_world_base)
-    return Draft("nav_to_pose", action, _WHOLE_ROBOT, after, (), contacts(task.scene, after))
+    way, allowed = task.scene.way_to(station.name), contacts(task.scene, after)
+    if way is None:
+        return Draft("nav_to_pose", action, _WHOLE_ROBOT, after, (), allowed)
+    drive_s = way.length_m / calibration.base_speed_m_s + way.turn_rad / calibration.base_turn_rad_s
+    told = (
+        Parameter("drive_length", f"{way.length_m:.2f} m", "computed", _BY_MAP),
+        Parameter("drive_turn", f"{math.degrees(way.turn_rad):.0f} deg", "computed", _BY_MAP),
+    )
+    return Draft("nav_to_pose", action, _WHOLE_ROBOT, after, told, allowed, drive_s)
 
 
 def _perceive(task: Task, line: TemplateStep) -> Draft:
     name = str(line.field("frame"))
     argument, _, attribute = name.partition(".")
-    frame = task.station(argument, line).ground_frame if attribute == "ground_frame" else name
+    frame = _ground_frame(task, argument, line) if attribute == "ground_frame" else name
     after = task.scene.perceive()
     return Draft("perceive", Perceive(frame), ("perception",), after, (), contacts(task.scene, after))
+
+
+def _ground_frame(task: Task, argument: str, line: TemplateStep) -> str:
+    """The frame that a station grounds; of an object, that of the station where the base stands."""
+    if not isinstance(task.argument(argument), ObjectRef):
+        return task.station(argument, line).ground_frame
+    stations = task.profile.calibration.stations
+    return next(item.ground_frame for item in stations if item.name == task.scene.epoch.station)
 
 
 def _set_do(task: Task, line: TemplateStep) -> Draft:

@@ -13,7 +13,7 @@ from xei_lang.diagnostics import Label, Span
 from xei_lang.ir.geometry import Pose
 from xei_lang.ir.goals import Epoch, Family
 from xei_lang.ir.skill_plan import Side
-from xei_lang.ir.world import World, WorldObject
+from xei_lang.ir.world import Drive, World, WorldObject
 from xei_lang.profiles.model import Profile
 
 _REST_TOLERANCE_M = 0.01
@@ -55,7 +55,7 @@ class Held:
 @dataclass(frozen=True, slots=True)
 class Scene:
     """Where everything is at one point of the plan. `reached` names the object that an open hand stands
-    around.
+    around; `drives` are the ways between stations that a map is known to leave.
     """
 
     epoch: Epoch
@@ -63,12 +63,14 @@ class Scene:
     standing: Mapping[str, Standing]
     held: Mapping[Side, Held]
     reached: Mapping[Side, str]
+    drives: tuple[Drive, ...] = ()
 
     @staticmethod
     def of(world: World, profile: Profile) -> Scene:
         """The scene before anything moves, at the station where the robot stands."""
         standing = {item.name: _standing(item, world, profile) for item in world.objects}
-        return Scene(Epoch(0, world.robot.station, world.robot.T_world_base), False, standing, {}, {})
+        epoch = Epoch(0, world.robot.station, world.robot.T_world_base)
+        return Scene(epoch, False, standing, {}, {}, world.drives)
 
     def T_base_object(self, name: str) -> Pose:
         """Pose of a standing object in the base frame of this epoch. Raises KeyError for one in a hand."""
@@ -110,6 +112,11 @@ class Scene:
         """The open hand now stands around this object (empty: around none)."""
         others = {key: item for key, item in self.reached.items() if key != side}
         return replace(self, reached={**others, side: name} if name else others)
+
+    def way_to(self, station: str) -> Drive | None:
+        """The base's way from where it stands to a station by the map, or None where no map says one."""
+        ends = (self.epoch.station, station)
+        return next((one for one in self.drives if (one.start, one.goal) == ends), None)
 
     def drive(self, station: str, T_world_base: Pose) -> Scene:
         """The base stands elsewhere: a new epoch, not yet grounded; what the hands hold has come along."""

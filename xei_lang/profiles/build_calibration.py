@@ -11,6 +11,8 @@ from xei_lang.profiles.model import (
     Calibration,
     Camera,
     CarryPose,
+    Lidar,
+    MapFiles,
     Placeholder,
     PlanningLimit,
     RobotDescription,
@@ -53,6 +55,24 @@ def build_calibration(
         carry=tuple(_carry(model, root)),
         apriltags=_tag_layout(model, root),
         cameras=tuple(_cameras(model, root)),
+        lidars=tuple(
+            Lidar(name, one.frame, one.status, tuple(one.topics.items()), root.key_span("lidars", name))
+            for name, one in model.lidars.items()
+        ),
+        map=_map(model, root),
+    )
+
+
+def _map(model: CalibrationProfile, root: Node) -> MapFiles:
+    stated = model.map
+    return MapFiles(
+        stated.yaml or "",
+        stated.image or "",
+        stated.sha256 or "",
+        stated.status,
+        stated.measured_on or "",
+        root.key_span("map"),
+        root.span_of("map", "sha256"),
     )
 
 
@@ -92,7 +112,13 @@ def _carry(model: CalibrationProfile, root: Node) -> Iterator[CarryPose]:
 def _tag_layout(model: CalibrationProfile, root: Node) -> TagLayout:
     layout = model.apriltags
     tags = tuple(
-        Tag(tag.id, tag.size.si, tag.frame, pose(tag.position, tag.rpy), root.span_of("apriltags", "tags", index))
+        Tag(
+            tag.id,
+            tag.size.si,
+            tag.frame,
+            pose(tag.position, tag.rpy),
+            root.span_of("apriltags", "tags", index),
+        )
         for index, tag in enumerate(layout.tags)
     )
     return TagLayout(layout.family, layout.status, tags, layout.minimum_tags, layout.residual_px)

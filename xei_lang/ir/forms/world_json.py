@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from xei_lang.ir.forms.canonical import Json
 from xei_lang.ir.forms.geometry_json import pose, primitive
-from xei_lang.ir.world import Frame, World, WorldObject
+from xei_lang.ir.world import Drive, Frame, World, WorldObject
 
 
 def to_json(world: World) -> dict[str, Json]:
@@ -19,6 +19,7 @@ def to_json(world: World) -> dict[str, Json]:
         "frames": [_frame(frame) for frame in world.frames],
         "objects": [_object(item) for item in world.objects],
         "sources": list(world.sources),
+        **({"drives": [_drive(one) for one in world.drives]} if world.drives else {}),
     }
 
 
@@ -30,6 +31,16 @@ def _frame(frame: Frame) -> dict[str, Json]:
         "status": frame.status,
         "position_tolerance_m": frame.position_tolerance_m,
         "rotation_tolerance_rad": frame.rotation_tolerance_rad,
+    }
+
+
+def _drive(drive: Drive) -> dict[str, Json]:
+    return {
+        "start": drive.start,
+        "goal": drive.goal,
+        "poses": [list(pose) for pose in drive.poses],
+        "length_m": drive.length_m,
+        "turn_rad": drive.turn_rad,
     }
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from xei_lang.ir.forms.pose_text import millimetres, pose_text
-from xei_lang.ir.world import Frame, RobotState, World, WorldObject
+from xei_lang.ir.world import Drive, Frame, RobotState, World, WorldObject
 
 
 def to_text(world: World) -> str:
@@ -14,6 +14,7 @@ def to_text(world: World) -> str:
         _robot(world.robot),
         "\n".join(_frame(frame) for frame in world.frames),
         *(_object(item) for item in world.objects),
+        "\n".join(_drive(one) for one in world.drives),
         f"asked, in this order: {', '.join(world.sources) or 'nothing'}",
     ]
     return "\n\n".join(block for block in blocks if block) + "\n"
@@ -29,6 +30,11 @@ def _frame(frame: Frame) -> str:
     turn = f"{math.degrees(frame.rotation_tolerance_rad):.3g}"
     good = f"good to {millimetres(frame.position_tolerance_m)} mm and {turn} deg"
     return f"frame {frame.name} in {frame.parent}: {pose_text(frame.T_parent_frame)}, {frame.status}, {good}"
+
+
+def _drive(drive: Drive) -> str:
+    turn = f"{math.degrees(drive.turn_rad):.0f}"
+    return f"drive {drive.start} -> {drive.goal}: {drive.length_m:.2f} m and turns of {turn} deg, by the map"
 
 
 def _object(item: WorldObject) -> str:

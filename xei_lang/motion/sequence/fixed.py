@@ -34,9 +34,9 @@ def plan_fixed(context: Context, goal: MotionGoal, before: Snapshot) -> Motion |
         return grip(context, goal, action, before)
     if isinstance(action, NavToPose):
         after = replace(before, T_world_base=action.T_world_base)
-        return Motion(
-            goal, before, after, duration_s=_drive_s(context, before.T_world_base, action.T_world_base)
-        )
+        straight_s = _drive_s(context, before.T_world_base, action.T_world_base)
+        # A way by the map is never shorter than the straight one; lowering states its time.
+        return Motion(goal, before, after, duration_s=max(straight_s, goal.min_duration_s))
     return still(goal, before, _still_s(goal))
 
 

@@ -9,12 +9,23 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from xei_lang.profiles.model.bank import ArgSpec, ReturnSpec, SkillBank, SkillRule, SkillSpec, TemplateStep
+from xei_lang.profiles.model.bank import (
+    MOST_TIMES,
+    ArgSpec,
+    Repeat,
+    ReturnSpec,
+    SkillBank,
+    SkillRule,
+    SkillSpec,
+    TemplateStep,
+)
 from xei_lang.profiles.model.calibration import (
     CalibratedFrame,
     Calibration,
     Camera,
     CarryPose,
+    Lidar,
+    MapFiles,
     Placeholder,
     PlanningLimit,
     SceneOrigin,
@@ -36,6 +47,7 @@ from xei_lang.profiles.model.robot import NamedState, RobotDescription, RobotJoi
 from xei_lang.record import Record
 
 __all__ = [
+    "MOST_TIMES",
     "ArgSpec",
     "CalibratedFrame",
     "Calibration",
@@ -44,13 +56,16 @@ __all__ = [
     "Element",
     "FiniteState",
     "LabObject",
+    "Lidar",
     "Liquid",
+    "MapFiles",
     "NamedState",
     "OperationDefault",
     "Placeholder",
     "PlanningLimit",
     "Prior",
     "Profile",
+    "Repeat",
     "ReturnSpec",
     "RobotDescription",
     "RobotJoint",

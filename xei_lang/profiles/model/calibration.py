@@ -124,6 +124,37 @@ class Camera(Record):
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Lidar(Record):
+    """A planar lidar: its frame (x forward, y left, z up: the scan's plane is z = 0) and topics."""
+
+    name: str
+    frame: str
+    status: Status
+    topics: tuple[tuple[str, str], ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class MapFiles(Record):
+    """The map's files, as paths below the profile's folder, and the SHA-256 of their bytes: those of the YAML
+    file, then those of the image. What the profile leaves open is empty; `span` is the section.
+    """
+
+    yaml: str
+    image: str
+    sha256: str
+    status: Status
+    measured_on: str
+    span: Span
+    sha256_span: Span
+
+    @property
+    def is_named(self) -> bool:
+        """Whether there is a map to read: a section with gaps is a placeholder."""
+        return bool(self.yaml and self.image and self.sha256)
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Placeholder(Record):
     """Something that nobody has measured yet: the item of the calibration profile, and how to measure it."""
 
@@ -162,6 +193,8 @@ class Calibration(Record):
     carry: tuple[CarryPose, ...] = ()
     apriltags: TagLayout = TagLayout()
     cameras: tuple[Camera, ...] = ()
+    lidars: tuple[Lidar, ...] = ()
+    map: MapFiles | None = None
 
     def carry_pose(self, arm: Side) -> CarryPose | None:
         """Where this arm carries what it holds, or None where the profile does not say."""

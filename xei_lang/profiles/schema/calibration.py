@@ -113,6 +113,7 @@ class MapModel(Model):
     image: str | None
     sha256: str | None
     status: Status
+    measured_on: str | None = None
 
 
 class TagModel(Model):
