@@ -15,6 +15,7 @@ def test_the_skill_bank_is_the_one_that_protocols_are_written_for():
         "move_object": ["object", "to", "arm"],
         "nav_to": ["station"],
         "slide_to": ["height"],
+        "look_at": ["target"],
         "open_gripper": ["arm", "width"],
         "close_gripper": ["arm"],
         "set_do": ["output", "value"],

@@ -40,7 +40,6 @@ POINTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
             "wipe_end",
             "wipe_away",
         ),
-        "Station": ("ground_frame",),
     }
 )
 """Points of an operation, by the type of the argument that they belong to."""
@@ -48,6 +47,12 @@ POINTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
 AXES: Mapping[str, tuple[str, ...]] = MappingProxyType({"object": ("pour_lip",)})
 AREAS: Mapping[str, tuple[str, ...]] = MappingProxyType({"Place": ("wipe_area",)})
 """Axes and areas of an operation's stated paths, by the type of the argument that they belong to."""
+
+HEIGHTS: Mapping[str, tuple[str, ...]] = MappingProxyType({"object": ("look_height",), "Station": ("slide",)})
+FRAMES: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {"object": ("ground_frame",), "Station": ("ground_frame",)}
+)
+"""Heights of the slide and frames to ground that belong to an argument, by its type."""
 
 FIELDS: Mapping[GoalKind, tuple[tuple[str, ...], tuple[str, ...]]] = MappingProxyType(
     {
@@ -198,16 +203,22 @@ def _known(profile: Profile, skill: SkillSpec, step: TemplateStep, field: str) -
     }
     if field in ("axis", "area"):
         kinds = AXES if field == "axis" else AREAS
-        return [f"{name}.{item}" for name, type_ in args.items() for item in kinds.get(type_, ())]
+        return _of_args(args, kinds)
     if field in ("speed", "width", "height", "for", "angle", "lead", "pitch"):
-        return [*args, *OPERATION_PARAMETERS, *(item.name for item in skill.parameters)]
+        heights = _of_args(args, HEIGHTS) if field == "height" else []
+        return [*args, *heights, *OPERATION_PARAMETERS, *(item.name for item in skill.parameters)]
     if field == "at" and step.kind == "detach":
         return of_type["Place"]
-    if field in ("at", "frame"):
-        frames = [frame.name for frame in profile.calibration.frames] if field == "frame" else []
-        points = (f"{name}.{point}" for name, type_ in args.items() for point in POINTS.get(type_, ()))
-        return [*points, *frames]
+    if field == "at":
+        return _of_args(args, POINTS)
+    if field == "frame":
+        return [*_of_args(args, FRAMES), *(frame.name for frame in profile.calibration.frames)]
     return words.get(field)
+
+
+def _of_args(args: Mapping[str, str], words: Mapping[str, tuple[str, ...]]) -> list[str]:
+    """Each argument with each word that its type has: `object.grasp`."""
+    return [f"{name}.{word}" for name, type_ in args.items() for word in words.get(type_, ())]
 
 
 def _no_argument(skill: SkillSpec, name: str, names: list[str], span: Span) -> Diagnostic:
