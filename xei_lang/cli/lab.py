@@ -15,7 +15,7 @@ from xei_lang.profiles.load import load_profile
 from xei_lang.profiles.lookup import find_profile, missing_profile, only_profile
 from xei_lang.profiles.model import Profile
 
-_OPTIONAL = frozenset({"cv2", "casadi"})
+_OPTIONAL = frozenset({"cv2", "casadi", "fastapi", "uvicorn", "httpx"})
 
 
 def open_lab(named: str | None, color: bool) -> Profile:

@@ -18,7 +18,7 @@ COMMANDS = {
     "fmt": "Format protocols.",
     "fix": "Apply the fixes of diagnostics.",
     "doctor": "Say what blocks a real deployment.",
-    "perception": "Find tags in an image, and where they say the tables stand.",
+    "perception": "Find tags and tables in an image, or serve poses of objects.",
     "calibrate": "Solve a camera's place from a recording.",
     "explain": "Say more about a diagnostic's code.",
     "schema": "Print the JSON Schema of a form.",

@@ -8,9 +8,10 @@ from pathlib import Path
 import click
 
 from xei_lang.cli.lab import open_lab, optional
-from xei_lang.cli.options import wants_color
+from xei_lang.cli.options import PROFILE_WORLD, wants_color
 from xei_lang.cli.report import exit_code, show
-from xei_lang.diagnostics import Diagnostic, Diagnostics
+from xei_lang.cli.worlds import observed_by
+from xei_lang.diagnostics import Diagnostic, Diagnostics, has_errors
 from xei_lang.profiles.model import Camera, Profile
 
 MAX_IMAGE_BYTES = 100_000_000
@@ -18,7 +19,7 @@ MAX_IMAGE_BYTES = 100_000_000
 
 @click.group("perception")
 def command() -> None:
-    """Look at images with the calibrated cameras of a profile.
+    """Look at images with the calibrated cameras of a profile, or serve poses of its objects.
 
     Example: xei perception detect bench.png
     """
@@ -45,6 +46,72 @@ def detect(*, image: Path, profile: str | None, form: str, quiet: bool, color: s
         said: Diagnostics = (Diagnostic("XEI0680", "the profile has no camera", help=(_NO_CAMERA,)),)
     else:
         said = _detect(image, lab, camera, form, quiet=quiet, colored=colored)
+    show(said, {}, colored)
+    sys.exit(exit_code(said))
+
+
+@command.command("serve")
+@click.option("--profile", metavar="NAME|FOLDER", help="The profile; needed where there are several.")
+@click.option(
+    "--backend",
+    type=click.Choice(["mock", "apriltag", "foundationpose"]),
+    default="apriltag",
+    show_default=True,
+    help="What finds objects: the world as it is believed to be, tags in the image, or another process.",
+)
+@click.option("--world", "named", default=PROFILE_WORLD, show_default=True, metavar="profile|FILE",
+              help="What `mock` takes for the truth: the priors, or a scene file over them.")  # fmt: skip
+@click.option("--seed", type=int, default=0, show_default=True, help="Of the noise of `mock`.")
+@click.option("--upstream", metavar="URL", help="The process that `foundationpose` asks.")
+@click.option("--host", default="127.0.0.1", show_default=True)
+@click.option(
+    "--port", type=click.IntRange(0, 65535), default=0, show_default=True, help="0 is any free one."
+)
+@click.option(
+    "--token-file",
+    type=click.Path(path_type=Path),
+    help="A file with the token that callers must give; needed for any host but this machine's own.",
+)
+@click.option("--quiet", is_flag=True, help="Print the address and errors only.")
+@click.option("--color", type=click.Choice(["auto", "always", "never"]), default="auto", show_default=True)
+def serve(
+    *,
+    profile: str | None,
+    backend: str,
+    named: str,
+    seed: int,
+    upstream: str | None,
+    host: str,
+    port: int,
+    token_file: Path | None,
+    quiet: bool,
+    color: str,
+) -> None:
+    """Run a pose service until Ctrl-C, and print its address.
+
+    It finds objects of the profile in pictures that are sent to it; `xei schema pose_request` and `xei schema
+    pose_response` are its contract.
+
+    Example: xei perception serve --backend mock
+    """
+    colored = wants_color(color)
+    lab = open_lab(profile, colored)
+    optional("xei_lang.world.perception.service.app", colored)
+    optional("xei_lang.world.perception.service.listen", colored)
+    optional("xei_lang.world.perception.client", colored)
+    from xei_lang.cli.pose_service import read_token, serve_poses
+    from xei_lang.world.ground import ground
+
+    token, said = read_token(token_file)
+    seen, problems = observed_by(named, lab)
+    said = (*said, *problems)
+    world = None
+    if not has_errors(said):
+        world, problems = ground(lab, seen)
+        said = (*said, *(item for item in problems if world is None))
+    if world is not None:
+        said = serve_poses(lab, world, backend=backend, host=host, port=port, token=token, seed=seed,
+                           upstream=upstream, quiet=quiet)  # fmt: skip
     show(said, {}, colored)
     sys.exit(exit_code(said))
 

@@ -22,8 +22,11 @@ FORMS: Mapping[str, tuple[str, str]] = MappingProxyType(
         "manifest": ("export/manifest.schema.json", "`manifest.json`: what a bundle was made from"),
         "doctor": ("doctor/doctor.schema.json", "what `xei doctor --format json` prints"),
         "trace": ("ir/forms/trace.schema.json", "a line of what `xei run --trace` writes"),
+        "scene_file": ("world/sources/scene_file.schema.json", "a recorded scene, as `--world` reads it"),
         "recording": ("world/calibration/recording.schema.json", "what `xei calibrate` reads"),
         "tags": ("world/perception/tags.schema.json", "what `xei perception detect --format json` prints"),
+        "pose_request": ("world/perception/pose_request.schema.json", "what a pose service is asked"),
+        "pose_response": ("world/perception/pose_response.schema.json", "what a pose service answers"),
     }
 )
 """Forms whose schema is a file of the package, and what they are."""

@@ -44,7 +44,7 @@ def check_frames(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
             span = trees.calibration.span_of("robot_frames", name)
             yield unknown("a link of the robot", link, profile.robot.links, span)
     yield from _stations(profile, tuple(frames), trees.calibration)
-    yield from _sensors((*anchors, *frames), trees.calibration)
+    yield from _sensors((*anchors, *frames), tuple(item.name for item in profile.objects), trees.calibration)
 
 
 def _circle(frame: CalibratedFrame, frames: dict[str, CalibratedFrame]) -> Iterator[Diagnostic]:
@@ -83,10 +83,16 @@ def _stations(profile: Profile, frames: tuple[str, ...], tree: Node) -> Iterator
         yield unknown("a calibrated frame", calibration.map_frame, frames, tree.span_of("map", "frame"))
 
 
-def _sensors(frames: tuple[str, ...], tree: Node) -> Iterator[Diagnostic]:
-    """Tags, cameras and lidars stand in frames that exist."""
+def _sensors(frames: tuple[str, ...], objects: tuple[str, ...], tree: Node) -> Iterator[Diagnostic]:
+    """Cameras and lidars stand in frames that exist; tags may also be on an object, in its own frame."""
     tags = tree.find(("apriltags", "tags"))
-    paths: list[Path] = [("apriltags", "tags", index, "frame") for index in range(len(tags.elements))]
+    for index in range(len(tags.elements)):
+        where = ("apriltags", "tags", index, "frame")
+        name = str(tree.find(where).scalar)
+        if name not in frames and name not in objects:
+            known = [*frames, *objects]
+            yield unknown("a frame or an object of this profile", name, known, tree.span_of(*where))
+    paths: list[Path] = []
     for section in ("cameras", "lidars"):
         sensors = tree.child(section)
         paths += [(section, name, "frame") for name in (sensors.items if sensors else ())]

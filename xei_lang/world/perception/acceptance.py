@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from xei_lang.ir.geometry import Pose, Primitive, Vec3
 from xei_lang.world.perception.optics import Array, Optics, matrix_of
 from xei_lang.world.perception.pose_request import ObjectPose, Picture
-from xei_lang.world.perception.rigid import rigid_pose
 from xei_lang.world.perception.service_fault import PoseRefused, RefusalReason
 from xei_lang.world.perception.silhouette import Silhouette, half_size, silhouette
+from xei_lang.world.sources.rigid import pose_of_matrix
 
 Bounds = tuple[Vec3, Vec3]
 
@@ -93,12 +93,12 @@ def accept(
     if item.frame_id != evidence.picture.output_frame:
         said = f"is in `{item.frame_id[:60]}`, and was asked for in `{evidence.picture.output_frame}`"
         return _refused(item, "other_frame", said, "mend the service: it does not keep to the contract")
-    pose = rigid_pose(item.T_output_object)
+    pose = pose_of_matrix(item.T_output_object)
     if isinstance(pose, str):
         return _refused(item, "not_rigid", f"is no pose: {pose}", "mend the service")
     if not _reaches(shape, evidence.T_workspace_output @ pose, evidence.workspace_m):
         return _refused(item, "outside_workspace", f"lies outside of the workspace, at {_text(pose)}",
-                        "look whether the camera stands right; if it does, bring the object nearer")  # fmt: skip
+                        "look whether the camera stands right; if so, bring the object nearer")  # fmt: skip
     T_camera_object = evidence.picture.T_output_camera.inverse() @ pose
     seen = silhouette(shape, T_camera_object, evidence.optics)
     if seen is None:

@@ -27,14 +27,14 @@ from xei_lang.world.perception.pose_request import (
     PoseResponse,
 )
 from xei_lang.world.perception.registry import RegisteredObject
-from xei_lang.world.perception.rigid import rigid_pose
+from xei_lang.world.sources.rigid import pose_of_matrix
 
 DISTORTIONS = (0, 4, 5, 8, 12, 14)
 
 
 def request_of(model: PoseRequestModel) -> PoseRequest | str:
     """The request that was sent, or what is wrong with it beyond its form."""
-    T_output_camera = rigid_pose(model.T_output_camera)
+    T_output_camera = pose_of_matrix(model.T_output_camera)
     if isinstance(T_output_camera, str):
         return f"T_output_camera: {T_output_camera}"
     rgb, depth = decoded(model.rgb_png), decoded(model.depth_png16)

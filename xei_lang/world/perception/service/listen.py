@@ -42,11 +42,8 @@ def url_of(made: socket.socket) -> str:
     return f"http://{shown}:{port}"
 
 
-def serve(app: ASGIApp, made: socket.socket) -> None:
-    """Serve until SIGINT or SIGTERM; what is being answered is finished within `GRACE_S`.
-
-    Raises KeyboardInterrupt after a clean end by SIGINT.
-    """
+def server_of(app: ASGIApp) -> uvicorn.Server:
+    """The server of an app; what is being answered when it is to end is finished within `GRACE_S`."""
     config = uvicorn.Config(
         app,
         log_level="warning",
@@ -61,4 +58,9 @@ def serve(app: ASGIApp, made: socket.socket) -> None:
         loop="asyncio",
         server_header=False,
     )
-    uvicorn.Server(config).run(sockets=[made])
+    return uvicorn.Server(config)
+
+
+def serve(app: ASGIApp, made: socket.socket) -> None:
+    """Serve until SIGINT or SIGTERM. Raises KeyboardInterrupt after a clean end by SIGINT."""
+    server_of(app).run(sockets=[made])
