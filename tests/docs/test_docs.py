@@ -11,6 +11,7 @@ The blocks of a page, in their order:
 - `csv`: is written to the path in its first line, which is not part of it.
 - `json`: is written to the file that was named last before it.
 - `yaml`: is put behind the skills of the bench's skill bank.
+- `diff`: changes a file of the bench, which a line "In `usage_profile.yaml`:" before it names, from there on.
 
 `--update-golden` writes the `text` blocks anew.
 """
@@ -29,12 +30,15 @@ from pathlib import Path
 
 import pytest
 
+from tests.docs.error_pages import Change
+
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 XEI = (sys.executable, "-c", "from xei_lang.cli.main import run; run()")
 PIECE = 'protocol piece {{\n  profile "openarm_bench"\n{}\n}}\n'
 
 _BLOCK = re.compile(r"^```(?P<language>[a-z]*)\n(?P<body>.*?)^```$\n?", re.DOTALL | re.MULTILINE)
+_CHANGED = re.compile(r"^In `(\w+\.yaml)`:\n\n\Z", re.MULTILINE)
 _NAME = re.compile(r"^protocol (\w+)", re.MULTILINE)
 _STATED = re.compile(r"# (protocols/\S+)$", re.MULTILINE)
 _WHOLE = re.compile(r"^(xei \d|import|protocol|procedure)\b", re.MULTILINE)
@@ -45,7 +49,9 @@ _MEASURED = ("motion ", "verify ", "bundle ", "dry-run: ")
 
 @dataclass(frozen=True)
 class Block:
-    """A fenced block of a page, the JSON file named last before it, and the blocks after it."""
+    """A fenced block of a page, the JSON file named last before it (of a diff, the file that it changes), and
+    the blocks after it.
+    """
 
     language: str
     body: str
@@ -109,7 +115,9 @@ def _blocks(text: str) -> Iterator[Block]:
         is_output = follower is not None and follower["language"] == "text"
         between = text[block.end() : follower.start()] if follower else "-"
         line = text.count("\n", 0, block.start()) + 1
-        named = re.findall(r"`([a-z]+\.json)`", text[: block.start()])
+        before = text[: block.start()]
+        changed = _CHANGED.search(before) if block["language"] == "diff" else None
+        named = [changed[1]] if changed else re.findall(r"`([a-z]+\.json)`", before)
         output = follower if is_output and "\n#" not in between else None
         command = follower["body"] if follower and follower["language"] == "sh" else ""
         yield Block(block["language"], block["body"], line, named[-1] if named else "", output, command)
@@ -126,6 +134,8 @@ def _run(block: Block, project: Path, cache: Path) -> str | None:
     if block.language == "yaml":
         bank = project / "profiles" / "openarm_bench" / "development_profile.yaml"
         bank.write_text(f"{bank.read_text(encoding='utf-8')}\n{block.body}", encoding="utf-8")
+    if block.language == "diff":
+        Change(block.file, block.body).apply(project / "profiles" / "openarm_bench")
     if block.language == "json" and block.file:
         (project / block.file).write_text(block.body, encoding="utf-8")
     if block.language != "sh":
