@@ -18,6 +18,7 @@ COMMANDS = {
     "fmt": "Format protocols.",
     "fix": "Apply the fixes of diagnostics.",
     "doctor": "Say what blocks a real deployment.",
+    "world": "Show where everything is, and who said so.",
     "perception": "Find tags and tables in an image, or serve poses of objects.",
     "calibrate": "Solve a camera's place from a recording.",
     "explain": "Say more about a diagnostic's code.",
