@@ -26,6 +26,8 @@ def test_the_skill_bank_is_the_one_that_protocols_are_written_for():
         "tap": ["screen", "element", "arm"],
         "swipe": ["screen", "element", "direction", "distance", "arm"],
         "wipe": ["object", "on", "length", "width", "arm"],
+        "invert": ["object", "angle", "times", "arm"],
+        "shake": ["object", "amplitude", "times", "arm"],
     }
     assert all(skill.exposed and skill.phrases and skill.process for skill in bench().bank.skills)
 

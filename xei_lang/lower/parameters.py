@@ -104,6 +104,8 @@ def _of_call(step: Step) -> dict[str, Setting]:
     settings: dict[str, Setting] = {}
     for argument in step.args:
         value: Value = argument.value
+        if isinstance(value, int) and not isinstance(value, bool):
+            value = Quantity(Fraction(value), NUMBER, "")
         if isinstance(value, (Quantity, str)):
             source: Source = "call" if argument.source == "call" else "skill"
             settings[argument.name] = Setting(argument.name, value, source, "argument", argument.span)

@@ -1,18 +1,21 @@
 """Declarative templates: each line of a skill's template becomes one goal (a named configuration one for each
-hand that holds something, and one for the rest). A new skill is a few lines of the skill bank.
+hand that holds something, and one for the rest), repeated lines one each time. A new skill is
+a few lines of the skill bank.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import groupby
 from types import MappingProxyType
 
 from xei_lang.diagnostics import did_you_mean
 from xei_lang.ir.goals import GoalKind
 from xei_lang.lower import build_arm, build_other
 from xei_lang.lower.draft import Builder, Draft
+from xei_lang.lower.refusal import refuse
 from xei_lang.lower.task import Task, refuse_template
-from xei_lang.profiles.model import TemplateStep
+from xei_lang.profiles.model import MOST_TIMES, Repeat, TemplateStep
 
 BUILDERS: Mapping[GoalKind, Builder] = MappingProxyType(
     {
@@ -40,12 +43,33 @@ def expand(task: Task, lines: tuple[TemplateStep, ...] | None = None) -> tuple[D
     diagnostic of the operation that cannot be planned.
     """
     drafts: list[Draft] = []
-    for line in task.spec.template if lines is None else lines:
-        builder = _builder(line)
-        built = builder.build(task, line)
-        drafts.extend(built if isinstance(built, tuple) else (built,))
-        task.scene = drafts[-1].scene if drafts else task.scene
+    for repeat, group in groupby(task.spec.template if lines is None else lines, lambda line: line.repeat):
+        block = tuple(group)
+        for line in block * (1 if repeat is None else times(task, repeat, block[0])):
+            built = _builder(line).build(task, line)
+            drafts.extend(built if isinstance(built, tuple) else (built,))
+            task.scene = drafts[-1].scene if drafts else task.scene
     return tuple(drafts)
+
+
+def times(task: Task, repeat: Repeat, line: TemplateStep) -> int:
+    """How often the lines of a repeat are gone through: stated in the template, by the call, or computed by
+    an operation that the lines before it, or its only arm, work with. Refuses what is no such number
+    (XEI0702).
+    """
+    if isinstance(repeat.times, int):
+        return repeat.times
+    arms = tuple(task.arms.values())
+    setting = task.setting(repeat.times, arms[0].arm if len(arms) == 1 else None, line)
+    value = setting.si("Fraction")
+    if value != round(value) or not 1 <= value <= MOST_TIMES:
+        refuse(
+            "XEI0702",
+            f"`{setting.name}` of {setting.text} is no number of times",
+            setting.span or task.step.span,
+            f"expected a whole number, 1 .. {MOST_TIMES}",
+        )
+    return round(value)
 
 
 def _builder(line: TemplateStep) -> Builder:

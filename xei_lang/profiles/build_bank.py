@@ -9,8 +9,23 @@ from typing import TYPE_CHECKING, TypeVar, get_args
 from xei_lang.diagnostics import Diagnostic, Diagnostics, Source, Span, did_you_mean
 from xei_lang.ir.goals import GoalKind
 from xei_lang.profiles.build_objects import operation_defaults
-from xei_lang.profiles.model import ArgSpec, ReturnSpec, SkillBank, SkillRule, SkillSpec, TemplateStep
-from xei_lang.profiles.schema.development import ArgModel, DevelopmentProfile, ReturnModel, SkillModel
+from xei_lang.profiles.model import (
+    ArgSpec,
+    Repeat,
+    ReturnSpec,
+    SkillBank,
+    SkillRule,
+    SkillSpec,
+    TemplateStep,
+)
+from xei_lang.profiles.schema.development import (
+    ArgModel,
+    DevelopmentProfile,
+    GoalLine,
+    RepeatLine,
+    ReturnModel,
+    SkillModel,
+)
 from xei_lang.profiles.yaml_tree import Node, Path
 from xei_lang.quantity import TYPE_DIMENSIONS, Quantity, QuantityError, parse_quantity
 from xei_lang.quantity.dimension import NUMBER
@@ -98,28 +113,36 @@ class _Bank:
         )
 
     def template(self, model: SkillModel, path: Path) -> tuple[TemplateStep, ...]:
-        steps: list[TemplateStep] = []
-        for index, step in enumerate(model.template):
-            span = self.root.span_of(*path, index)
-            if len(step) != 1:
-                self._say(
-                    "XEI0609", "a step of a template is one goal", span, "expected one key, the kind of goal"
-                )
+        """All goals, in order; what a `repeat` stands for is marked with it."""
+        steps: list[TemplateStep | None] = []
+        for index, line in enumerate(model.template):
+            if not isinstance(line, RepeatLine):
+                steps.append(self.goal(line, path, (index,), None))
                 continue
-            word, fields = next(iter(step.items()))
-            key = self.root.key_span(*path, index, word)
-            kind: GoalKind | None = next((kind for kind in KINDS if kind == word), None)
-            if kind is None:
-                near = did_you_mean(word, KINDS)
-                known = (
-                    f"did you mean `{near[0]}`?"
-                    if near
-                    else "known are " + ", ".join(f"`{kind}`" for kind in KINDS)
-                )
-                self._say("XEI0609", f"`{word}` is not a kind of goal", key, "expected a kind of goal", known)
-                continue
-            steps.append(TemplateStep(kind, tuple(fields.items()), key))
-        return tuple(steps)
+            span = self.root.key_span(*path, index, "repeat")
+            repeat = Repeat(line.repeat.times, index, span)
+            steps.extend(
+                self.goal(inner, path, (index, "repeat", "do", number), repeat)
+                for number, inner in enumerate(line.repeat.do)
+            )
+        return tuple(step for step in steps if step is not None)
+
+    def goal(self, line: GoalLine, path: Path, at: Path, repeat: Repeat | None) -> TemplateStep | None:
+        if len(line) != 1:
+            span = self.root.span_of(*path, *at)
+            label = "expected one key, the kind of goal"
+            self._say("XEI0609", "a step of a template is one goal", span, label)
+            return None
+        word, fields = next(iter(line.items()))
+        key = self.root.key_span(*path, *at, word)
+        kind: GoalKind | None = next((kind for kind in KINDS if kind == word), None)
+        if kind is None:
+            near = did_you_mean(word, KINDS)
+            all_ = "known are " + ", ".join(f"`{kind}`" for kind in KINDS)
+            known = f"did you mean `{near[0]}`?" if near else all_
+            self._say("XEI0609", f"`{word}` is not a kind of goal", key, "expected a kind of goal", known)
+            return None
+        return TemplateStep(kind, tuple(fields.items()), key, repeat, at)
 
     def _bound(self, type_: str, value: Quantity | int | float | None, path: Path) -> Quantity | None:
         """A bound of a quantity's type; bounds of plain numbers are quantities without a unit."""

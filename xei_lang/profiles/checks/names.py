@@ -10,6 +10,8 @@ from xei_lang.profiles.model import LabObject, Profile
 from xei_lang.profiles.trees import Trees
 
 OPERATION_PARAMETERS = (
+    "air_ahead",
+    "air_clearance",
     "approach_height",
     "approach_speed",
     "fill",
@@ -25,6 +27,7 @@ OPERATION_PARAMETERS = (
     "pour_height",
     "pour_time",
     "release_width",
+    "shake_swing",
     "standoff",
     "swipe_standoff",
     "tap_standoff",

@@ -10,6 +10,7 @@ from typing import get_args
 from xei_lang.diagnostics import Diagnostic, Span
 from xei_lang.ir.goals import GoalKind, PathKind
 from xei_lang.profiles.checks.names import OPERATION_PARAMETERS
+from xei_lang.profiles.checks.repeats import check_repeats
 from xei_lang.profiles.checks.unknown import unknown
 from xei_lang.profiles.instruments import OWNER
 from xei_lang.profiles.model import Profile, SkillSpec, TemplateStep
@@ -30,6 +31,11 @@ POINTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
             "swipe_start",
             "swipe_end",
             "swipe_away",
+            "invert_above",
+            "inverted",
+            "shake_above",
+            "shake_left",
+            "shake_right",
         ),
         "Place": (
             "above",
@@ -44,7 +50,7 @@ POINTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
 )
 """Points of an operation, by the type of the argument that they belong to."""
 
-AXES: Mapping[str, tuple[str, ...]] = MappingProxyType({"object": ("pour_lip",)})
+AXES: Mapping[str, tuple[str, ...]] = MappingProxyType({"object": ("pour_lip", "invert_axis", "shake_axis")})
 AREAS: Mapping[str, tuple[str, ...]] = MappingProxyType({"Place": ("wipe_area",)})
 """Axes and areas of an operation's stated paths, by the type of the argument that they belong to."""
 
@@ -107,12 +113,13 @@ def check_skills(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
         yield from _contract(skill)
         yield from _occupied(skill, trees)
         yield from _phrases(skill, trees)
-        for index, step in enumerate(skill.template):
+        yield from check_repeats(skill, trees)
+        for step in skill.template:
             yield from _fields(skill, step)
             for field, value in step.fields:
                 known = _known(profile, skill, step, field) if isinstance(value, str) else None
                 if known is not None and str(value).removeprefix(_MINUS[field == "angle"]) not in known:
-                    span = trees.of_skill(skill.name, "template", index, step.kind, field)
+                    span = trees.of_skill(skill.name, "template", *step.path, step.kind, field)
                     what = f"a `{field}` for the template of `{skill.name}`"
                     yield unknown(what, str(value), known, span, "XEI0623")
 

@@ -59,15 +59,36 @@ class SkillRule(Record):
     span: Span
 
 
+MOST_TIMES = 100
+"""How often a template may go through the same lines."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Repeat(Record):
+    """Lines of a template that are gone through several times, `times` being a number or the name of one.
+
+    `number` tells the repeats of a template apart; `span` is the word `repeat`.
+    """
+
+    times: str | int
+    number: int
+    span: Span
+
+
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class TemplateStep(Record):
     """One line of a skill's template: a goal kind and its fields, whose values may name arguments (`arm`),
     points of an operation (`object.pregrasp`) or operation parameters (`open_width`).
+
+    Neighbours with the same `repeat` are gone through together, as often as it says. `path` is where the
+    line stands below `template` in the file.
     """
 
     kind: GoalKind
     fields: tuple[tuple[str, str | int | float | bool], ...]
     span: Span
+    repeat: Repeat | None = None
+    path: tuple[str | int, ...] = ()
 
     def field(self, name: str) -> str | int | float | bool | None:
         """The value of a field, or None."""

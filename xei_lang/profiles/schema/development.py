@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import Discriminator, Field, Tag
 from pydantic_core import CoreSchema, core_schema
 
 from xei_lang.profiles.schema.values import (
@@ -111,6 +111,33 @@ class ReturnModel(Model):
     max: AnyQuantity | int | float | None = None
 
 
+Fields = dict[Name, str | int | float | bool]
+GoalLine = dict[Name, Fields]
+"""One key, the kind of goal, and the fields of it."""
+
+
+class RepeatModel(Model):
+    """Lines of a template that are gone through `times` times: a number, or the name of one."""
+
+    times: int | Name
+    do: list[GoalLine] = Field(min_length=1)
+
+
+class RepeatLine(Model):
+    """A line of a template that stands for several."""
+
+    repeat: RepeatModel
+
+
+def _sort_of_line(line: object) -> str:
+    return "repeated" if isinstance(line, dict) and "repeat" in line else "goal"
+
+
+Line = Annotated[
+    Annotated[RepeatLine, Tag("repeated")] | Annotated[GoalLine, Tag("goal")], Discriminator(_sort_of_line)
+]
+
+
 class SkillModel(Model):
     """A skill's contract and its template. `min_confidence` is how surely it must be known where its objects
     are.
@@ -131,7 +158,7 @@ class SkillModel(Model):
     process: Text
     phrases: list[Text] = Field(default=[])
     parameters: dict[Name, OperationValue] = Field(default={})
-    template: list[dict[Name, dict[Name, str | int | float | bool]]] = Field(min_length=1)
+    template: list[Line] = Field(min_length=1)
 
 
 class RobotModel(Model):

@@ -1,0 +1,52 @@
+"""Room in the air: where hands can turn or meet over a bench without anything near."""
+
+from __future__ import annotations
+
+import math
+
+from xei_lang.ir.geometry import Vec3
+from xei_lang.ir.skill_plan import Side
+from xei_lang.lower.operations.base import Work
+from xei_lang.lower.parameters import Setting, computed_length
+from xei_lang.lower.robot import shoulder_xy
+
+_AHEAD_M = 0.32
+_INWARDS = 2 / 3
+"""Where a single arm works, from the robot's middle to its shoulder."""
+_HAND_M = 0.12
+"""How far hand and wrist reach about what they hold while they turn."""
+
+
+def room_in_air(work: Work, sides: tuple[Side, ...], radius_m: float) -> tuple[Vec3, Setting, Setting]:
+    """The middle of a free ball of this radius, in the base frame, and the settings that put it there.
+
+    It lies `air_ahead` ahead of the shoulders, between those of two arms or a little inside that of one, and
+    `air_clearance` over the highest thing below it. What hands hold is not looked at: where they will be is
+    not chosen yet.
+    """
+    ahead = work.layers.merge("air_ahead", None)
+    if ahead is None:
+        ahead = computed_length("air_ahead", _AHEAD_M, "where an arm reaches from all sides")
+    clearance = work.layers.merge("air_clearance", None)
+    if clearance is None:
+        clearance = computed_length("air_clearance", _HAND_M, "of the hand that turns")
+    shoulders = [shoulder_xy(work.profile, side) for side in sides]
+    x = shoulders[0][0] + ahead.si("Length")
+    y = _INWARDS * sum(shoulder[1] for shoulder in shoulders) / len(shoulders)
+    z = _highest(work, x, y, radius_m + clearance.si("Length")) + radius_m + clearance.si("Length")
+    return (x, y, z), ahead, clearance
+
+
+def _highest(work: Work, x: float, y: float, radius_m: float) -> float:
+    """The top of the highest object that reaches under a circle, in the base frame; 0 where there is none."""
+    top = 0.0
+    for name in work.scene.standing:
+        known = work.profile.object(name)
+        if known is None:
+            continue
+        pose = work.scene.T_base_object(name)
+        beside = pose.inverse().apply((x, y, pose.position_m[2]))
+        away = math.hypot(*(max(0.0, abs(beside[k]) - known.size_m[k] / 2) for k in (0, 1)))
+        if away < radius_m:
+            top = max(top, pose.apply((0.0, 0.0, known.size_m[2]))[2])
+    return top
