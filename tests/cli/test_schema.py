@@ -60,6 +60,8 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[Any]]:
     image_of_the_table(folder / "bench.png")
     seen = xei("perception", "detect", "bench.png", "--format", "json", cwd=folder)
     found |= {"tags": [json.loads(seen.out)], "recording": [recorded(1, 6), recorded(1, 6, form="poses")]}
+    found["scene_file"] = [yaml.safe_load(xei("world", "show", "--format", "scene", cwd=folder).out)]
+    found["world"] = [json.loads(xei("world", "show", "--format", "json", cwd=folder).out)]
     found["doctor"] = [json.loads(xei("doctor", "--format", "json", cwd=folder).out)]
     return {"check": [json.loads(checked.out)], "trace": [json.loads(line) for line in lines], **found}
 

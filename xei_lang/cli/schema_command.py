@@ -22,6 +22,7 @@ FORMS: Mapping[str, tuple[str, str]] = MappingProxyType(
         "manifest": ("export/manifest.schema.json", "`manifest.json`: what a bundle was made from"),
         "doctor": ("doctor/doctor.schema.json", "what `xei doctor --format json` prints"),
         "trace": ("ir/forms/trace.schema.json", "a line of what `xei run --trace` writes"),
+        "world": ("world/view/world.schema.json", "what `xei world show --format json` prints"),
         "scene_file": ("world/sources/scene_file.schema.json", "a recorded scene, as `--world` reads it"),
         "recording": ("world/calibration/recording.schema.json", "what `xei calibrate` reads"),
         "tags": ("world/perception/tags.schema.json", "what `xei perception detect --format json` prints"),

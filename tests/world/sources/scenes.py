@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
+from functools import cache
+
 from tests.world.bench import bench
 from xei_lang.diagnostics import Diagnostics, Source
 from xei_lang.ir.geometry import Pose
@@ -31,6 +34,18 @@ def at(
     name: str, x: float, y: float, z: float = 0.0, *, yaw: float = 0.0, frame: str = "table"
 ) -> Observation:
     return Observation(name, Pose.from_rpy((x, y, z), (0.0, 0.0, yaw)), frame, 0.9)
+
+
+@cache
+def free(name: str) -> Observation:
+    """The object on a free place of the table: the first of a grid where it contradicts nothing."""
+    for x, y in itertools.product(range(60, 660, 40), range(-640, 660, 40)):
+        there = at(name, x / 1000, y / 1000)
+        world, _ = ground(bench(), (seen(there),))
+        found = world.find(name) if world is not None else None
+        if found is not None and not found.place:
+            return there
+    raise AssertionError(f"the table has no free place for {name}")
 
 
 def grounded(*observed: Observations) -> World:

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from tests.world.bench import bench, world
-from tests.world.sources.scenes import at, codes, grounded, seen
+from tests.world.sources.scenes import at, codes, free, grounded, seen
 from xei_lang.ir.geometry import Pose
 from xei_lang.profiles.grid import T_object_standing
 from xei_lang.world.ground import ground, is_prior, observers
@@ -68,12 +68,13 @@ def test_what_stands_in_a_rack_that_was_seen_moves_with_it():
 
 
 def test_what_was_seen_itself_does_not_move_with_its_rack():
-    free = at("tube_1", 0.35, 0.0)
-    found = grounded(seen(at("rack_1", 0.15, -0.135, yaw=QUARTER), free))
+    alone = free("tube_1")
+    assert alone.T_frame_object is not None
+    found = grounded(seen(at("rack_1", 0.13, -0.135, yaw=QUARTER), alone))
     tube = found.find("tube_1")
     assert tube is not None
     assert tube.place == ""
-    assert tube.T_frame_object.position_m == pytest.approx((0.35, 0.0, 0.0))
+    assert tube.T_frame_object.position_m == pytest.approx(alone.T_frame_object.position_m)
 
 
 def test_a_tube_seen_near_a_slot_stands_in_it():
@@ -176,5 +177,5 @@ def test_another_size_is_a_warning():
 
 
 def test_sources_see_the_same_in_whatever_order_they_list_it():
-    items = (at("rack_1", 0.15, -0.135, yaw=QUARTER), at("tube_1", 0.35, 0.0), at("beaker_1", 0.1, -0.33))
+    items = (at("rack_1", 0.13, -0.135, yaw=QUARTER), free("tube_1"), at("beaker_1", 0.09, -0.33))
     assert grounded(seen(*items)) == grounded(seen(*reversed(items)))

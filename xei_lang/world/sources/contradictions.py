@@ -104,11 +104,11 @@ def _overlaps(known: tuple[Known, ...]) -> Iterator[tuple[Known, Known, float]]:
     """Pairs of which one at least was moved by what was seen, with how deep they are in each other."""
     known = tuple(sorted(known, key=lambda one: (bool(one.standing.carried_by), one.name)))
     bodies = [(one, solids_at(one.belief.item, one.standing.T_world_object)) for one in known]
-    balls = [_ball(one) for one in known]
+    extents = [_extent(one) for one in known]
     for index, (first, parts) in enumerate(bodies):
         for other in range(index):
             second, others = bodies[other]
-            if not (first.is_moved or second.is_moved) or not _near(balls[index], balls[other]):
+            if not (first.is_moved or second.is_moved) or not _near(extents[index], extents[other]):
                 continue
             if _stands_in(first, second) or _stands_in(second, first):
                 continue
@@ -133,15 +133,31 @@ def _stands_in(one: Known, host: Known) -> bool:
     return place is not None and place.object == host.name and place.kind != "surface"
 
 
-def _ball(one: Known) -> tuple[float, float, float, float]:
-    """Middle (m, in `world`) and radius of a ball around an object."""
-    size = one.belief.item.size_m
-    x, y, z = one.standing.T_world_object.apply((0.0, 0.0, size[2] / 2))
-    return x, y, z, math.hypot(*size) / 2
+@dataclass(frozen=True, slots=True)
+class _Extent:
+    """An upright cylinder (m, in `world`) that an object is within."""
+
+    x: float
+    y: float
+    radius: float
+    lower: float
+    upper: float
 
 
-def _near(a: tuple[float, float, float, float], b: tuple[float, float, float, float]) -> bool:
-    return math.dist(a[:3], b[:3]) < a[3] + b[3]
+def _extent(one: Known) -> _Extent:
+    size, pose = one.belief.item.size_m, one.standing.T_world_object
+    if pose.axes()[2][2] > 1.0 - 1e-9:
+        x, y, z = pose.position_m
+        return _Extent(x, y, math.hypot(size[0], size[1]) / 2, z, z + size[2])
+    x, y, z = pose.apply((0.0, 0.0, size[2] / 2))
+    radius = math.hypot(*size) / 2
+    return _Extent(x, y, radius, z - radius, z + radius)
+
+
+def _near(a: _Extent, b: _Extent) -> bool:
+    if a.lower >= b.upper or b.lower >= a.upper:
+        return False
+    return math.hypot(a.x - b.x, a.y - b.y) < a.radius + b.radius
 
 
 def _error(one: Known, message: str, label: str, other: Known | None = None) -> Diagnostic:

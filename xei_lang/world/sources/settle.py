@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from xei_lang.ir.geometry import Pose
+from xei_lang.ir.geometry import Pose, Vec3
 from xei_lang.ir.skill_plan import PlaceRef
 from xei_lang.profiles import grid as grids
 from xei_lang.profiles.model import LabObject
@@ -27,11 +27,20 @@ TILT_RAD = math.radians(10.0)
 
 
 @dataclass(frozen=True, slots=True)
+class Floor:
+    """A slot, and the middle of its floor in the frame of the object that has it."""
+
+    place: PlaceRef
+    position_m: Vec3
+
+
+@dataclass(frozen=True, slots=True)
 class Host:
-    """Something that others may stand in or on, and where it stands itself."""
+    """Something that others may stand in or on, where it stands itself, and the floors of its slots."""
 
     item: LabObject
     T_world_host: Pose
+    floors: tuple[Floor, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +57,12 @@ def is_host(item: LabObject) -> bool:
     return item.slots is not None or bool(item.spots) or _takes(item)
 
 
+def floors_of(item: LabObject) -> tuple[Floor, ...]:
+    """The floors of all slots of an object."""
+    found = ((place, grids.T_object_standing(item, place.kind, place.key)) for place in slots(item))
+    return tuple(Floor(place, pose.position_m) for place, pose in found if pose is not None)
+
+
 def settle(item: LabObject, T_world_object: Pose, hosts: Iterator[Host]) -> Settled | None:
     """Where the object stands that was seen at `T_world_object`; None where that is in and on nothing.
 
@@ -58,20 +73,19 @@ def settle(item: LabObject, T_world_object: Pose, hosts: Iterator[Host]) -> Sett
         T_host_object = host.T_world_host.inverse() @ T_world_object
         if T_host_object.axes()[2][2] < math.cos(TILT_RAD):
             continue
-        for rank, distance_m, settled in _candidates(item, host.item, T_host_object):
+        for rank, distance_m, settled in _candidates(item, host, T_host_object):
             found.append((rank, distance_m, settled.place.object + settled.place.key, settled))
     return min(found, key=lambda one: one[:3])[3] if found else None
 
 
-def _candidates(item: LabObject, host: LabObject, seen: Pose) -> Iterator[tuple[int, float, Settled]]:
-    x, y, z = seen.position_m
-    slot = _nearest_slot(item, host, x, y)
-    if slot is not None and host.slots is not None:
-        place, T_host_floor = slot
-        fx, fy, fz = T_host_floor.position_m
+def _candidates(item: LabObject, stand: Host, seen: Pose) -> Iterator[tuple[int, float, Settled]]:
+    host, (x, y, z) = stand.item, seen.position_m
+    for floor in stand.floors if host.slots is not None else ():
+        fx, fy, fz = floor.position_m
         distance_m = math.hypot(x - fx, y - fy)
-        if distance_m <= host.slots.bore_m / 2 and abs(z - fz) <= HEIGHT_M:
-            yield 0, distance_m, Settled(host, place, _upright(seen, fx, fy, fz))
+        near = host.slots is not None and distance_m <= host.slots.bore_m / 2 and abs(z - fz) <= HEIGHT_M
+        if near and accepts(host, floor.place, item.roles):
+            yield 0, distance_m, Settled(host, floor.place, _upright(seen, fx, fy, fz))
     for spot in host.spots:
         sx, sy, sz = spot.T_object_spot.position_m
         distance_m = math.hypot(x - sx, y - sy)
@@ -82,17 +96,6 @@ def _candidates(item: LabObject, host: LabObject, seen: Pose) -> Iterator[tuple[
     on_it = abs(x) <= host.size_m[0] / 2 and abs(y) <= host.size_m[1] / 2
     if _takes(host) and on_it and abs(z - top) <= HEIGHT_M:
         yield 2, abs(z - top), Settled(host, PlaceRef(host.name, "surface", ""), _upright(seen, x, y, top))
-
-
-def _nearest_slot(item: LabObject, host: LabObject, x: float, y: float) -> tuple[PlaceRef, Pose] | None:
-    """The slot for such an object whose axis is nearest, and its floor in the host's frame."""
-    near: list[tuple[float, PlaceRef, Pose]] = []
-    for place in slots(host):
-        T_host_floor = grids.T_object_standing(host, place.kind, place.key)
-        if T_host_floor is not None and accepts(host, place, item.roles):
-            fx, fy, _ = T_host_floor.position_m
-            near.append((math.hypot(x - fx, y - fy), place, T_host_floor))
-    return min(near, key=lambda one: one[0])[1:] if near else None
 
 
 def _upright(seen: Pose, x: float, y: float, z: float) -> Pose:

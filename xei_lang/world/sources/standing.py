@@ -14,7 +14,7 @@ from xei_lang.profiles.grid import T_object_standing
 from xei_lang.profiles.model import LabObject
 from xei_lang.world.places import initial_place
 from xei_lang.world.sources.belief import Belief
-from xei_lang.world.sources.settle import HEIGHT_M, Host, is_host, settle
+from xei_lang.world.sources.settle import HEIGHT_M, Host, floors_of, is_host, settle
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +43,7 @@ class Standings:
         self._found: dict[str, Standing | None] = {}
         self._open: set[str] = set()
         self._hosts = [one for one in beliefs.values() if is_host(one.item) and not one.is_absent]
+        self._floors = {one.item.name: floors_of(one.item) for one in self._hosts}
         self._rough = {one.item.name: self._rough_pose(one.item) for one in self._hosts}
 
     def of(self, name: str) -> Standing | None:
@@ -103,7 +104,7 @@ class Standings:
                 continue
             standing = self.of(one.item.name)
             if standing is not None:
-                yield Host(one.item, standing.T_world_object)
+                yield Host(one.item, standing.T_world_object, self._floors[one.item.name])
 
     def _rough_pose(self, item: LabObject) -> Pose | None:
         """Where a host is before anything is settled: as it was seen, or as priors chain."""

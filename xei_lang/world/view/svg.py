@@ -32,7 +32,7 @@ def to_svg(world: World, profile: Profile) -> str:
     drawn = [item for item in world.objects if max(item.size_m[:2]) <= _LARGEST_M]
     drawn.sort(key=lambda item: (world.T_world_object(item.name).position_m[2], item.name))
     shapes = [line for item in drawn for line in _object(item, world, profile)]
-    names = [_name(item, world) for item in drawn]
+    names = [_name(item, world, profile) for item in drawn]
     stations = list(_stations(world, profile))
     left, top, width, height = _view(world, profile, drawn)
     head = (
@@ -73,9 +73,21 @@ def _title(item: WorldObject, world: World, profile: Profile, known: LabObject |
     return f"{item.name}{where}: {said}, confidence {item.confidence:g}{reach}"
 
 
-def _name(item: WorldObject, world: World) -> str:
-    x, y = _mm(world.T_world_object(item.name).position_m)
-    return f'<text x="{x:.1f}" y="{y:.1f}">{escape(item.name)}</text>'
+def _name(item: WorldObject, world: World, profile: Profile) -> str:
+    """The name in the middle; at the far edge of a table, under a thing with slots, small over what is in
+    one.
+    """
+    pose, known = world.T_world_object(item.name), profile.object(item.name)
+    x, y = _mm(pose.position_m)
+    corners = [point.split(",")[1] for point in _corners(pose, item.size_m).split()]
+    small = ""
+    if known is not None and known.system:
+        y = min(float(corner) for corner in corners) + 20
+    elif known is not None and known.slots is not None:
+        y = max(float(corner) for corner in corners) + 16
+    elif ".slot(" in item.place:
+        small, y = ' class="key"', y - item.size_m[0] * 500 - 8
+    return f'<text{small} x="{x:.1f}" y="{y:.1f}">{escape(item.name)}</text>'
 
 
 def _stations(world: World, profile: Profile) -> Iterator[str]:
