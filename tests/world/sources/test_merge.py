@@ -179,3 +179,24 @@ def test_another_size_is_a_warning():
 def test_sources_see_the_same_in_whatever_order_they_list_it():
     items = (at("rack_1", 0.13, -0.135, yaw=QUARTER), free("tube_1"), at("beaker_1", 0.09, -0.33))
     assert grounded(seen(*items)) == grounded(seen(*reversed(items)))
+
+
+@pytest.mark.parametrize("lift_m", [-0.004, 0.004])
+def test_what_stands_by_its_prior_on_a_table_that_was_seen_stands_on_it_as_it_was_seen(lift_m):
+    """Eyes see a table a little higher or lower, and leaning: nothing then stands in it or floats over it."""
+    x, y, z = world().T_world_object("table").position_m
+    leaning = Pose.from_rpy((x, y, z + lift_m), (0.0005, -0.0007, 0.001))
+    found = grounded(seen(Observation("table", leaning, "world", 0.9)))
+    T_table_world = found.T_world_object("table").inverse()
+    table, beaker = bench().object("table"), found.find("beaker_1")
+    assert table is not None
+    assert beaker is not None
+    above = T_table_world.apply(found.T_world_object("beaker_1").position_m)[2] - table.size_m[2]
+    assert above == pytest.approx(0.0, abs=1e-9)
+    assert dict(beaker.provenance)["pose"] == "usage_profile prior, moved with table"
+
+
+def test_a_small_lean_does_not_hide_a_contradiction():
+    x, y, z = world().T_world_object("rack_1").position_m
+    leaning = Observation("beaker_1", Pose.from_rpy((x, y, z), (0.01, 0.0, 0.0)), "world", 0.9)
+    assert set(codes(seen(leaning))) == {"XEI0658"}

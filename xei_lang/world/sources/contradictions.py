@@ -14,7 +14,7 @@ from xei_lang.profiles.checks.overlap import TOUCH_M, Upright, overlap_m, solids
 from xei_lang.profiles.model import Profile
 from xei_lang.world.places import place_text
 from xei_lang.world.sources.belief import Belief
-from xei_lang.world.sources.settle import HEIGHT_M
+from xei_lang.world.sources.settle import HEIGHT_M, leveled
 from xei_lang.world.sources.standing import Standing
 
 _CODE = "XEI0658"
@@ -101,16 +101,20 @@ def _below(profile: Profile, one: Known, frames: Mapping[str, Pose]) -> Iterator
 
 
 def _overlaps(known: tuple[Known, ...]) -> Iterator[tuple[Known, Known, float]]:
-    """Pairs of which one at least was moved by what was seen, with how deep they are in each other."""
+    """Pairs of which one at least was moved by what was seen, with how deep they are in each other.
+
+    What leans a little is taken to be upright; what was put into or onto a thing touches it rightly, and so
+    does furniture the floor.
+    """
     known = tuple(sorted(known, key=lambda one: (bool(one.standing.carried_by), one.name)))
-    bodies = [(one, solids_at(one.belief.item, one.standing.T_world_object)) for one in known]
+    bodies = [(one, solids_at(one.belief.item, leveled(one.standing.T_world_object))) for one in known]
     extents = [_extent(one) for one in known]
     for index, (first, parts) in enumerate(bodies):
         for other in range(index):
             second, others = bodies[other]
             if not (first.is_moved or second.is_moved) or not _near(extents[index], extents[other]):
                 continue
-            if _stands_in(first, second) or _stands_in(second, first):
+            if _belong_together(first, second):
                 continue
             depth_m = max((_depth_m(a, b) for a in parts for b in others), default=0.0)
             if depth_m > TOUCH_M:
@@ -128,9 +132,10 @@ def _carrier(one: Known) -> str:
     return one.standing.carried_by or one.name
 
 
-def _stands_in(one: Known, host: Known) -> bool:
-    place = one.standing.place
-    return place is not None and place.object == host.name and place.kind != "surface"
+def _belong_together(first: Known, second: Known) -> bool:
+    hosts = [(one.standing.place.object if one.standing.place else "") for one in (first, second)]
+    both_furniture = first.belief.item.system and second.belief.item.system
+    return both_furniture or hosts[0] == second.name or hosts[1] == first.name
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,7 +150,7 @@ class _Extent:
 
 
 def _extent(one: Known) -> _Extent:
-    size, pose = one.belief.item.size_m, one.standing.T_world_object
+    size, pose = one.belief.item.size_m, leveled(one.standing.T_world_object)
     if pose.axes()[2][2] > 1.0 - 1e-9:
         x, y, z = pose.position_m
         return _Extent(x, y, math.hypot(size[0], size[1]) / 2, z, z + size[2])

@@ -98,6 +98,14 @@ def _candidates(item: LabObject, stand: Host, seen: Pose) -> Iterator[tuple[int,
         yield 2, abs(z - top), Settled(host, PlaceRef(host.name, "surface", ""), _upright(seen, x, y, top))
 
 
+def leveled(pose: Pose) -> Pose:
+    """A pose that leans a little, made upright about its own origin; others as they are."""
+    x_axis, _, z_axis = pose.axes()
+    if z_axis[2] < math.cos(TILT_RAD):
+        return pose
+    return Pose.from_rpy(pose.position_m, (0.0, 0.0, math.atan2(x_axis[1], x_axis[0])))
+
+
 def _upright(seen: Pose, x: float, y: float, z: float) -> Pose:
     """The pose at this point, z up, turned about z as it was seen."""
     x_axis = seen.axes()[0]

@@ -72,13 +72,25 @@ class Standings:
             if T_world_frame is None:
                 return None
             pose = prior.T_frame_object
-            return Standing(prior.frame, pose, T_world_frame @ pose)
+            on_seen = None if item.system else self._on_seen(item, T_world_frame @ pose)
+            return on_seen or Standing(prior.frame, pose, T_world_frame @ pose)
         holder, under = self.of(place.object), self._beliefs.get(place.object)
         T_holder = T_object_standing(under.item, place.kind, place.key) if under else None
         if holder is None or under is None or T_holder is None:
             return None
         carrier = under.item.name if under.seen else holder.carried_by
         return _on(holder, T_holder @ prior.T_frame_object, place, 0.0, carrier)
+
+    def _on_seen(self, item: LabObject, T_world_object: Pose) -> Standing | None:
+        """Where an object stands by its prior on something that was seen, which may be a little higher or
+        lower than the prior says; None where it stands on nothing of the kind.
+        """
+        near = self._hosts_near(item.name, T_world_object.position_m)
+        settled = settle(item, T_world_object, (one for one in near if self._beliefs[one.item.name].seen))
+        host = self.of(settled.host.name) if settled else None
+        if settled is None or host is None:
+            return None
+        return _on(host, settled.T_host_object, settled.place, 0.0, settled.host.name)
 
     def _by_sight(self, known: Belief) -> Standing | None:
         seen = known.seen
