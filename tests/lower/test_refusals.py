@@ -11,11 +11,11 @@ import pytest
 from tests.lower.plans import bench, moved, obj, plan, put_on_rack, slot, surface, with_object, with_skill
 from xei_lang.diagnostics import Diagnostic, Span
 from xei_lang.ir.geometry import Box, Cylinder, Pose
-from xei_lang.ir.skill_plan import SkillPlan
+from xei_lang.ir.skill_plan import Argument, PoseIn, SkillPlan
 from xei_lang.ir.world import World
 from xei_lang.lower import lower
 from xei_lang.profiles.model import LabObject, OperationDefault, Profile, SkillSpec, TemplateStep
-from xei_lang.quantity import parse_quantity
+from xei_lang.quantity import parse_quantity, quantity
 
 
 def refused(of: SkillPlan, profile: Profile | None = None, world: World | None = None) -> Diagnostic:
@@ -293,3 +293,15 @@ def test_a_usage_profile_outranks_what_is_computed() -> None:
     assert told["standoff"] == ("120 mm", "usage_profile")
     kinds = {member.name.partition(",")[0] for member in graph.families[0].members}
     assert kinds == {"60 deg down", "straight down"}
+
+
+def test_a_pose_in_an_argument_is_refused_by_name() -> None:
+    zero, turn = quantity(0, "m"), quantity(0, "deg")
+    pose = PoseIn("table", (zero, zero, zero), (turn, turn, turn))
+    fetch = plan(("pick", {"object": obj("tube_1"), "arm": "left"}))
+    (step,) = fetch.steps
+    there = Argument("there", (pose,), "List[Pose]", "call", Span("p.xei", 3, 7))
+    said = refused(replace(fetch, steps=(replace(step, args=(*step.args, there)),)))
+    assert said.code == "XEI0105"
+    assert said.message == "`there` of `pick`, a pose, is not compiled to motion yet"
+    assert said.span == Span("p.xei", 3, 7)

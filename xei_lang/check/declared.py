@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from xei_lang.check.expectation import Expectation
-from xei_lang.check.functions import not_yet
 from xei_lang.check.registry import Registry
 from xei_lang.check.report import Reporter, guess, meant
 from xei_lang.check.types import VALUE_TYPES
 from xei_lang.diagnostics import did_you_mean
 from xei_lang.syntax.ast import Generic, Role, TypeExpr, walk
 
-_LATER = ("Pose",)
 
-
-def declared_expectation(  # noqa: PLR0911 one return for each form of a type
+def declared_expectation(
     node: TypeExpr, what: str, registry: Registry, reporter: Reporter
 ) -> Expectation | None:
     """What a declared name takes; None where the type names nothing, which is reported."""
@@ -27,9 +24,6 @@ def declared_expectation(  # noqa: PLR0911 one return for each form of a type
         return Expectation(what, inner.type, None, inner.roles, (), inner.lists + 1)
     if isinstance(node, Role) and node.id in VALUE_TYPES:
         return Expectation(what, node.id)
-    if isinstance(node, Role) and node.id in _LATER:
-        not_yet(reporter, f"the type `{node.id}`", node.span)
-        return None
     if isinstance(node, Role) and node.id == "object":
         return Expectation(what, "object")
     return (

@@ -43,9 +43,10 @@ class Expectation:
 _NOUNS = {
     "object": "an object",
     "Place": "a place",
+    "Pose": "a pose",
     "Station": "a station",
     "Arm": "an arm",
     "Int": "a whole number",
     "Float": "a number",
 }
-_PLURALS = {"object": "objects", "Place": "places", "Station": "stations", "Arm": "arms"}
+_PLURALS = {"object": "objects", "Place": "places", "Pose": "poses", "Station": "stations", "Arm": "arms"}

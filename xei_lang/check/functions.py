@@ -81,7 +81,7 @@ class Functions:
                 f"`{name}` is a skill and has no value", function.span, "a skill is a statement of its own"
             )
         else:
-            known = (*self.names, *STATE_VARIABLES)
+            known = (*self.names, "pose", *STATE_VARIABLES)
             self._reporter.report(
                 "XEI0319",
                 f"there is no function `{name}`",

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from xei_lang.check.functions import STATE_VARIABLES, Functions
 from xei_lang.check.lists import Evaluate
 from xei_lang.check.places import METHODS, PROPERTIES, Places
+from xei_lang.check.poses import POSE, Poses
 from xei_lang.check.registry import Registry
 from xei_lang.check.report import Reporter, guess, listed, meant
 from xei_lang.check.scope import Scope
@@ -36,6 +37,7 @@ class Members:
         self._functions = functions
         self._reporter = reporter
         self._evaluate = evaluate
+        self._poses = Poses(registry, reporter, evaluate)
         declared = (state.name for thing in registry.objects.values() for state in thing.states)
         self._variables = frozenset((*STATE_VARIABLES, *declared))
 
@@ -77,7 +79,9 @@ class Members:
         self._reporter.report("XEI0319", shown, node.name.span, "no such attribute", help=help, fix=fix)
         return POISON
 
-    def call(self, node: CallExpr, scope: Scope, states: Asked | Nominal | None) -> Val:
+    def call(  # noqa: PLR0911 one return for each kind of function
+        self, node: CallExpr, scope: Scope, states: Asked | Nominal | None
+    ) -> Val:
         """`rack.slot("A1")`, `len(tubes)`; the state of a thing, as `states` answers it."""
         function = node.function
         if isinstance(function, Attr) and function.name.id in METHODS:
@@ -86,6 +90,8 @@ class Members:
             self.attribute(function, scope)
             return POISON
         if isinstance(function, Name):
+            if function.id == POSE:
+                return self._poses.value(function, node, scope)
             if function.id in self._functions.names:
                 args = tuple(self._evaluate(arg.value, scope) for arg in node.args)
                 return self._functions.call(function, node, args)

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from xei_lang.check import arithmetic
+from xei_lang.check.equality import same
 from xei_lang.check.lists import Evaluate
 from xei_lang.check.names import ANY_WORD
 from xei_lang.check.report import Reporter
@@ -119,7 +120,7 @@ class Operators:
             return self._open(node.op, left, right)
         if _is_open(left) or _is_open(right):
             return POISON
-        return (show(left) == show(right)) == (node.op == "==")
+        return same(left, right) == (node.op == "==")
 
     def _numbers(self, node: Binary | Compare, scope: Scope, apply: Callable[[Val, Val], Val]) -> Val:
         left = self._evaluate(node.left, scope)

@@ -11,13 +11,14 @@ from xei_lang.syntax.ast import Role, TypeExpr, walk
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Registry:
-    """Objects, stations, skills, arms and roles of one profile."""
+    """Objects, stations, skills, arms, frames and roles of one profile."""
 
     objects: Mapping[str, LabObject]
     stations: tuple[str, ...]
     skills: Mapping[str, SkillSpec]
     arms: tuple[str, ...]
     owners: tuple[str, ...]
+    frames: tuple[str, ...]
     roles: frozenset[str]
 
     @staticmethod
@@ -35,8 +36,16 @@ class Registry:
             skills,
             profile.bank.arms,
             profile.bank.owners,
+            _frames(profile),
             frozenset(roles),
         )
+
+
+def _frames(profile: Profile) -> tuple[str, ...]:
+    """`world`, what the calibration profile gives a place in it, and what the robot carries."""
+    calibration = profile.calibration
+    carried = (name for name, _ in calibration.robot_frames)
+    return tuple(dict.fromkeys(("world", *(frame.name for frame in calibration.frames), *carried)))
 
 
 def role_names(expression: TypeExpr) -> tuple[str, ...]:

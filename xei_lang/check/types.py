@@ -6,6 +6,8 @@ from fractions import Fraction
 
 from xei_lang.check.expectation import Expectation
 from xei_lang.check.places import Places
+from xei_lang.check.poses import EXAMPLE
+from xei_lang.check.quantities import no_such_type, quantity_value, rule_of
 from xei_lang.check.registry import Registry
 from xei_lang.check.report import Reporter, listed, replace
 from xei_lang.check.roles import candidates, first_misfit, text, unmet
@@ -21,21 +23,16 @@ from xei_lang.check.values import (
     Undecided,
     Val,
     Word,
-    a,
-    kind,
     number,
-    show,
 )
-from xei_lang.diagnostics import Applicability
-from xei_lang.ir.skill_plan import StationRef
-from xei_lang.quantity import TYPE_DIMENSIONS, UNITS, Quantity, quantity
-from xei_lang.quantity.dimension import NUMBER, Dimension
-from xei_lang.syntax.ast import Expression, ListLit, QuantityLit, StringLit, TupleLit
+from xei_lang.ir.skill_plan import PoseIn, StationRef
+from xei_lang.quantity import TYPE_DIMENSIONS, Quantity
+from xei_lang.quantity.dimension import NUMBER
+from xei_lang.syntax.ast import Expression, ListLit, StringLit, TupleLit
 from xei_lang.world.places import place_text
 
-VALUE_TYPES = (*TYPE_DIMENSIONS, "Int", "Float", "Bool", "String", "Arm", "Place", "Station")
-"""The types that a parameter may have besides role expressions; `Pose` and tables come with later versions.
-"""
+VALUE_TYPES = (*TYPE_DIMENSIONS, "Int", "Float", "Bool", "String", "Arm", "Place", "Pose", "Station")
+"""The types that a parameter may have besides role expressions."""
 
 ANY_ARM = "either"
 
@@ -48,7 +45,7 @@ class Types:
         self._places = places
         self._reporter = reporter
 
-    def coerce(  # noqa: PLR0911 one return for each type
+    def coerce(  # noqa: PLR0911, PLR0912 one return for each type
         self, value: Val, expected: Expectation, node: Expression, state: State
     ) -> Val:
         """The value as the expected type has it: a place where an object is expected is its occupant in
@@ -59,7 +56,7 @@ class Types:
         if expected.lists:
             return self._list(value, expected, node, state)
         if expected.type in TYPE_DIMENSIONS:
-            return self._quantity(value, expected, node)
+            return quantity_value(value, expected, node, self._reporter)
         match expected.type:
             case "object":
                 return self._object(value, expected, node, state)
@@ -77,6 +74,8 @@ class Types:
                 return value
             case "Station" if isinstance(value, StationRef):
                 return value
+            case "Pose" if isinstance(value, PoseIn):
+                return value
             case _:
                 return self._wrong(value, expected, node)
 
@@ -88,42 +87,6 @@ class Types:
         pairs = zip(value.items, nodes, strict=True)
         items = tuple(self.coerce(item, expected.item, part, state) for item, part in pairs)
         return POISON if POISON in items else ListValue(items)
-
-    def _quantity(self, value: Val, expected: Expectation, node: Expression) -> Val:
-        dimensions = TYPE_DIMENSIONS[expected.type]
-        probe = value.lower if isinstance(value, Interval) else value
-        if isinstance(probe, Quantity) and probe.dimension in dimensions:
-            return value
-        if isinstance(probe, (int, Fraction)) and not isinstance(probe, bool):
-            return self._no_unit(value, expected, node)
-        if not isinstance(probe, Quantity):
-            return self._wrong(value, expected, node)
-        found = probe.dimension.name
-        mended = _mended_unit(node, dimensions)
-        self._reporter.report(
-            "XEI0306",
-            f"`{show(value)}` is {a(found)}, but {expected.what} takes {expected.noun}",
-            node.span,
-            f"expected {expected.noun}, found {a(found)}",
-            notes=self._rule(expected),
-            help=(f"write `{mended}` if that is what you mean",) if mended else _confused(probe, expected),
-            fix=replace(node.span, mended, _applicability(node)) if mended else None,
-        )
-        return POISON
-
-    def _no_unit(self, value: Val, expected: Expectation, node: Expression) -> Val:
-        units = [symbol for symbol, unit in UNITS.items() if unit.dimension in TYPE_DIMENSIONS[expected.type]]
-        usual = next((unit for unit in _USUAL_UNITS if unit in units), units[0])
-        example = f"{show(value)} {usual}"
-        self._reporter.report(
-            "XEI0307",
-            f"`{show(value)}` has no unit, but {expected.what} takes {expected.noun}",
-            node.span,
-            f"expected {expected.noun}, found a plain number",
-            notes=self._rule(expected),
-            help=(f"write it with a unit: {', '.join(units[:5])}; for example `{example}`",),
-        )
-        return POISON
 
     def _number(self, value: Val, expected: Expectation, node: Expression) -> Val:
         probe = value.lower if isinstance(value, Interval) else value
@@ -156,7 +119,7 @@ class Types:
             f"nothing is known to stand in `{shown}`, but {expected.what} takes {expected.noun}",
             node.span,
             "a place stands for the object in it, and this one is empty",
-            notes=self._rule(expected),
+            notes=rule_of(expected, self._reporter),
             help=(f"if something stands there, say so: `given at(...) == {shown}`",),
         )
         return POISON
@@ -179,7 +142,7 @@ class Types:
             f"{bound} {reason}, but {expected.what} takes {expected.noun} that is `{text(expected.roles)}`",
             node.span,
             f"`{misfit.name}` has the roles {', '.join(misfit.roles) or 'none'}",
-            notes=self._rule(expected),
+            notes=rule_of(expected, self._reporter),
             help=(f"registered objects that would do: {listed(fitting)}",)
             if fitting
             else ("no registered object would do",),
@@ -206,18 +169,17 @@ class Types:
         return Word(chosen) if chosen in expected.choices else self._wrong(value, expected, node)
 
     def _wrong(self, value: Val, expected: Expectation, node: Expression) -> Val:
+        if isinstance(value, PoseIn) and expected.type == "Place":
+            help_ = (
+                "a place is part of an object, such as a slot or a spot; a pose says nothing of what is there"
+            )
+            return no_such_type(value, expected, node, self._reporter, ((help_,), None))
+        if expected.type == "Pose":
+            help_ = f"write one as `{EXAMPLE}`"
+            return no_such_type(value, expected, node, self._reporter, ((help_,), None))
         quoted = isinstance(node, StringLit) and isinstance(value, str) and expected.type != "String"
-        help, fix = self._unquoted(value, expected, node) if quoted else NO_MEND
-        self._reporter.report(
-            "XEI0305",
-            f"`{show(value)}` is {kind(value)}, but {expected.what} takes {expected.noun}",
-            node.span,
-            f"expected {expected.noun}, found {kind(value)}",
-            notes=self._rule(expected),
-            help=help,
-            fix=fix,
-        )
-        return POISON
+        mend = self._unquoted(value, expected, node) if quoted else NO_MEND
+        return no_such_type(value, expected, node, self._reporter, mend)
 
     def _unquoted(self, value: Val, expected: Expectation, node: Expression) -> Mend:
         """What stands in quotes and should not: an object, an arm; a slot without its rack."""
@@ -227,51 +189,3 @@ class Types:
         if expected.type == "Arm" and name in (*self._registry.arms, ANY_ARM):
             return (f"write it without quotes: `{name}`",), replace(node.span, name)
         return bare_slot(name, node.span, self._registry) if expected.type in ("Place", "object") else NO_MEND
-
-    def _rule(self, expected: Expectation) -> tuple[str, ...]:
-        return (self._reporter.rule(expected.rule),) if expected.rule else ()
-
-
-_USUAL_UNITS = ("mL", "mm", "s", "min", "g", "degC", "deg", "rpm", "mM", "xg")
-_CONFUSED_UNITS = (
-    ("g", "xg"),
-    ("m", "min"),
-    ("degC", "K"),
-    ("mm", "mL"),
-    ("mM", "mL"),
-    ("mL", "mM"),
-    ("mm", "mM"),
-)
-_MORE_CONFUSED = (
-    ("mM", "mm"),
-    ("mL", "mm"),
-    ("uM", "uL"),
-    ("um", "uL"),
-    ("uL", "uM"),
-    ("M", "min"),
-    ("K", "degC"),
-)
-
-
-def _mended_unit(node: Expression, dimensions: tuple[Dimension, ...]) -> str | None:
-    """The literal with the unit that a hand writes for the one that is needed; None where there is no such
-    unit.
-    """
-    if not isinstance(node, QuantityLit):
-        return None
-    for written, better in (*_CONFUSED_UNITS, *_MORE_CONFUSED):
-        if node.value.unit == written and UNITS[better].dimension in dimensions:
-            return str(quantity(node.value.magnitude, better))
-    return None
-
-
-def _confused(found: Quantity, expected: Expectation) -> tuple[str, ...]:
-    if expected.type != "CentrifugalForce":
-        return ()
-    if found.dimension.name == "Frequency":
-        return ("how strong a spin is depends on the rotor's radius too: write its force, as in `3000 xg`",)
-    return ("a centrifugal force is written with `xg`, as in `3000 xg`",)
-
-
-def _applicability(node: Expression) -> Applicability:
-    return "safe" if isinstance(node, QuantityLit) and node.value.unit == "g" else "unsafe"

@@ -13,7 +13,8 @@ from enum import Enum
 from fractions import Fraction
 from typing import Final, Literal
 
-from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, RunValue, StationRef, Value
+from xei_lang.ir.forms.pose_text import written_pose
+from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, PoseIn, RunValue, StationRef, Value
 from xei_lang.profiles.model import LabObject
 from xei_lang.quantity import Quantity
 from xei_lang.quantity.dimension import NUMBER
@@ -128,6 +129,7 @@ Val = (
     | ObjectValue
     | PlaceValue
     | StationRef
+    | PoseIn
     | ListValue
     | RecordValue
     | Interval
@@ -158,6 +160,8 @@ def show(value: Val) -> str:  # noqa: PLR0911, PLR0912 one return for each kind 
             return value.name
         case PlaceValue():
             return place_text(value.ref)
+        case PoseIn():
+            return written_pose(value)
         case RecordValue():
             shown = [f"{name}: {show(cell)}" for name, cell in list(value.fields.items())[:3]]
             return f"({', '.join(shown)}{', ...' if len(value.fields) > 3 else ''})"
@@ -195,6 +199,8 @@ def kind(value: Val) -> str:  # noqa: PLR0911, PLR0912 one return for each kind 
             return "a place"
         case StationRef():
             return "a station"
+        case PoseIn():
+            return "a pose"
         case TableValue():
             return "a table"
         case ListValue():

@@ -49,6 +49,19 @@ class StationRef(Record):
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
+class PoseIn(Record):
+    """A pose in a frame of the calibration profile (or `world`), in the units in which it was written.
+
+    `position` is x, y, z (Length), `rotation` roll, pitch, yaw (Angle) about the frame's fixed axes:
+    `R = Rz(yaw) Ry(pitch) Rx(roll)`, as in URDF.
+    """
+
+    frame: str
+    position: tuple[Quantity, Quantity, Quantity]
+    rotation: tuple[Quantity, Quantity, Quantity]
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class RunValue(Record):
     """A value that measurements give: `formula` says how, with the ids of those steps, `needs`
     (`od[2] * 2 mL`).
@@ -63,7 +76,17 @@ class RunValue(Record):
 
 
 Value = (
-    Quantity | int | float | bool | str | ObjectRef | PlaceRef | StationRef | RunValue | tuple["Value", ...]
+    Quantity
+    | int
+    | float
+    | bool
+    | str
+    | ObjectRef
+    | PlaceRef
+    | StationRef
+    | PoseIn
+    | RunValue
+    | tuple["Value", ...]
 )
 """What an argument can be once it is checked. An arm is its name as a string (`left`, `right`, `either`)."""
 

@@ -7,7 +7,7 @@ from types import MappingProxyType
 
 from xei_lang.diagnostics import Diagnostic, Diagnostics, has_errors
 from xei_lang.ir.goals import Action, Confirm, Instrument, MotionGoalGraph, Wait
-from xei_lang.ir.skill_plan import ObjectRef, Side, SkillPlan, Step, Value
+from xei_lang.ir.skill_plan import ObjectRef, PoseIn, Side, SkillPlan, Step, Value
 from xei_lang.ir.world import World
 from xei_lang.lower import instruments
 from xei_lang.lower.arms import Choice, choose, destinations
@@ -85,6 +85,7 @@ def _lower_step(
         drafts = (_statement(step, scene),)
         assembly.add(step.step_id, step.span, after=after, before=scene, drafts=drafts)
         return scene
+    _refuse_poses(step)
     task = _task(plan, index, spec, scene, profile, arm)
     drafts = instruments.start(task) if step.kind == "start" else instruments.whole(task)
     if task.scene.epoch.index > scene.epoch.index:
@@ -114,6 +115,21 @@ def _run(action: Action, name: Value | None) -> Instrument | None:
     if isinstance(action, Instrument) and action.event == "start" and action.run == name:
         return action
     return None
+
+
+def _refuse_poses(step: Step) -> None:
+    """No line of a template can go to a pose that a call gives, so what it asks for would not happen."""
+    for argument in step.args:
+        values = argument.value if isinstance(argument.value, tuple) else (argument.value,)
+        if any(isinstance(value, PoseIn) for value in values):
+            what = f"`{argument.name}` of `{step.skill}`, a pose,"
+            refuse(
+                "XEI0105",
+                f"{what} is not compiled to motion yet",
+                argument.span,
+                "no template goes to a pose",
+                help=("give a place, such as a slot or a spot",),
+            )
 
 
 def _arrive(task: Task) -> tuple[Draft, ...]:

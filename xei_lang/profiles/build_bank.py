@@ -159,9 +159,12 @@ class _Bank:
         return None
 
     def _default(self, model: ArgModel, path: Path) -> str | Quantity | int | float | bool | None:
+        span = self.root.span_of(*path)
+        if model.type == "Pose" and model.default is not None:
+            self._say("XEI0610", "a pose has no default", span, "leave it out: each call says its pose")
+            return None
         if model.type not in TYPE_DIMENSIONS or model.default is None:
             return model.default
-        span = self.root.span_of(*path)
         try:
             value = parse_quantity(str(model.default))
         except QuantityError as error:

@@ -26,6 +26,7 @@ from xei_lang.ir.skill_plan import (
     Fact,
     ObjectRef,
     PlaceRef,
+    PoseIn,
     RunValue,
     SafetyNote,
     SkillPlan,
@@ -56,10 +57,15 @@ def quantities(type_: str) -> st.SearchStrategy[Value]:
     return st.builds(quantity, FRACTIONS, st.sampled_from(units))
 
 
+def triples(type_: str) -> st.SearchStrategy[Value]:
+    return st.tuples(*[quantities(type_)] * 3)
+
+
 TYPES: dict[str, st.SearchStrategy[Value]] = {
     "object": st.builds(ObjectRef, NAMES),
     "Place": PLACES,
     "Station": st.builds(StationRef, NAMES),
+    "Pose": st.builds(PoseIn, NAMES, triples("Length"), triples("Angle")),
     "Arm": st.sampled_from(["left", "right", "either"]),
     "choice": NAMES,
     "String": TEXTS,
@@ -81,7 +87,12 @@ SECONDS = st.floats(0, 1e6)
 
 
 def known(facts: list[Fact]) -> tuple[Fact, ...]:
-    return tuple(sorted(dict.fromkeys(facts), key=lambda fact: (fact.variable, fact.subject)))
+    """Sorted; only of what is held several things can be known."""
+    found = {
+        (fact.variable, fact.subject, fact.value if fact.variable == "holding" else ""): fact
+        for fact in facts
+    }
+    return tuple(sorted(found.values(), key=lambda fact: (fact.variable, fact.subject)))
 
 
 @st.composite

@@ -46,15 +46,31 @@ class AsExpression:
             whole = tuple(item for item in items if item is not None)
             return ListLit(whole, span) if len(whole) == len(items) else None
         if node.kind == "object":
-            if "measured" in node.items:
-                return self.of(node.items[self.end], type_)
-            quantity = ValueReader().quantity(node)
-            return QuantityLit(quantity, span) if quantity is not None else None
+            return self._compound(node, type_)
         if isinstance(value, bool):
             return Bool(value, span)
         if isinstance(value, (int, float)):
             return Number(value if isinstance(value, int) else Fraction(repr(value)), span)
         return _text(str(value), type_, span)
+
+    def _compound(self, node: JsonNode, type_: str | None) -> Expression | None:
+        if "measured" in node.items:
+            return self.of(node.items[self.end], type_)
+        if "pose" in node.items:
+            return self._pose(node)
+        quantity = ValueReader().quantity(node)
+        return QuantityLit(quantity, node.span) if quantity is not None else None
+
+    def _pose(self, node: JsonNode) -> Expression | None:
+        """The call of `pose` that it stands for."""
+        pose, frame = node.items["pose"], node.items["frame"]
+        parts = [(pose.keys[name], name, self.of(item, None)) for name, item in pose.items.items()]
+        args = [Arg(Name(name, at), value, at) for at, name, value in parts if value is not None]
+        if len(args) < len(parts):
+            return None
+        named = StringLit(str(frame.value)[:_LONGEST], frame.span)
+        args.append(Arg(Name("frame", node.keys["frame"]), named, frame.span))
+        return CallExpr(Name("pose", node.keys["pose"]), tuple(args), node.span)
 
 
 def _text(text: str, type_: str | None, span: Span) -> Expression | None:

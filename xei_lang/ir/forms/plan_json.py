@@ -6,6 +6,7 @@ Values are written as somebody who reads the plan with another program wants the
   decimal is it (a third of 10 mL), `exact` has it as a fraction;
 - an object, a station, an arm, a word is its name: `"tube_1"`, `"bench_b"`, `"either"`;
 - a place is its text in a protocol, `"rack_2.slot(\\"A1\\")"`, and for a whole surface the object's name;
+- a pose is `{"pose": {"x": ..., ...}, "frame": "table"}` with its six parts, `POSE_PARTS`;
 - what a measurement gives is `{"measured": "od[2] * 2 mL", "lower": ..., "upper": ...}`;
 - numbers, truth values and texts are those of JSON, a list is an array.
 
@@ -26,6 +27,7 @@ from xei_lang.ir.skill_plan import (
     Fact,
     ObjectRef,
     PlaceRef,
+    PoseIn,
     RunValue,
     SafetyNote,
     SkillPlan,
@@ -36,6 +38,9 @@ from xei_lang.ir.skill_plan import (
     Value,
 )
 from xei_lang.quantity import Quantity
+
+POSE_PARTS = ("x", "y", "z", "roll", "pitch", "yaw")
+"""The parts of a pose in its forms, in their order."""
 
 
 def to_json(plan: SkillPlan, sources: Sources) -> dict[str, Json]:
@@ -54,7 +59,7 @@ def to_json(plan: SkillPlan, sources: Sources) -> dict[str, Json]:
     }
 
 
-def value_form(value: Value) -> Json:
+def value_form(value: Value) -> Json:  # noqa: PLR0911 one return for each kind of value
     """One value of an argument or a fact."""
     match value:
         case Quantity():
@@ -63,6 +68,9 @@ def value_form(value: Value) -> Json:
             return value.name
         case PlaceRef():
             return f'{value.object}.{value.kind}("{value.key}")' if value.key else value.object
+        case PoseIn():
+            parts = zip(POSE_PARTS, (*value.position, *value.rotation), strict=True)
+            return {"pose": {name: _quantity(part) for name, part in parts}, "frame": value.frame}
         case RunValue():
             ends = {"lower": value_form(value.lower), "upper": value_form(value.upper)}
             return {"measured": value.formula, **ends}

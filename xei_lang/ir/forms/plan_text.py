@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
+from xei_lang.ir.forms.pose_text import written_pose
 from xei_lang.ir.skill_plan import (
     Argument,
     Fact,
     ObjectRef,
     PlaceRef,
+    PoseIn,
     RunValue,
     SkillPlan,
     StationRef,
@@ -41,7 +43,7 @@ def to_text(plan: SkillPlan) -> str:
     return "\n\n".join(blocks) + "\n"
 
 
-def value_text(value: Value) -> str:
+def value_text(value: Value) -> str:  # noqa: PLR0911 one return for each kind of value
     """A value as a protocol would write it: `2 mL`, `rack_1.slot("A1")`, `[a, b]`; texts stand bare."""
     match value:
         case bool():
@@ -50,6 +52,8 @@ def value_text(value: Value) -> str:
             return value.name
         case PlaceRef():
             return f'{value.object}.{value.kind}("{value.key}")' if value.key else value.object
+        case PoseIn():
+            return written_pose(value)
         case RunValue():
             return f"{value.formula} ({value_text(value.lower)} .. {value_text(value.upper)})"
         case tuple():

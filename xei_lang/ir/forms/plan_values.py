@@ -13,7 +13,8 @@ from typing import cast
 
 from xei_lang.diagnostics import Diagnostic
 from xei_lang.ir.forms.json_tree import JsonNode
-from xei_lang.ir.skill_plan import Fact, ObjectRef, PlaceRef, RunValue, StationRef, Value
+from xei_lang.ir.forms.plan_json import POSE_PARTS
+from xei_lang.ir.skill_plan import Fact, ObjectRef, PlaceRef, PoseIn, RunValue, StationRef, Value
 from xei_lang.quantity import (
     TYPE_DIMENSIONS,
     UNITS,
@@ -29,6 +30,7 @@ _EXACT = re.compile(r"-?[0-9]{1,300}/0*[1-9][0-9]{0,299}")
 _STEP_ID = re.compile(r"[A-Za-z_]\w*(?:\[\d+\]|#\d+|~\d+|\.[A-Za-z_]\w*)*")
 _HANDS = ("left", "right", "either")
 _NOTHING = "nothing"
+_NO_TURN = quantity(0, "deg")
 
 
 Needs = Mapping[str, int]
@@ -53,8 +55,7 @@ class ValueReader:
             inner = type_[5:-1] if type_ and type_.startswith("List[") else None
             return tuple(self.value(item, inner, needs) for item in node.elements)
         if node.kind == "object":
-            measured = "measured" in node.items
-            return self._measured(node, needs) if measured else self.quantity(node) or ""
+            return self._compound(node, needs)
         scalar = cast("str | int | float | bool", node.value)
         if type_ == "Float" and isinstance(scalar, int) and not isinstance(scalar, bool):
             return float(scalar)
@@ -71,6 +72,21 @@ class ValueReader:
                 return StationRef(scalar)
             case _:
                 return scalar
+
+    def _compound(self, node: JsonNode, needs: Needs) -> Value:
+        if "measured" in node.items:
+            return self._measured(node, needs)
+        found = self._pose(node) if "pose" in node.items else self.quantity(node)
+        return "" if found is None else found
+
+    def _pose(self, node: JsonNode) -> PoseIn | None:
+        """`{"pose": {"x": ..., ...}, "frame": "table"}`; a rotation that is left out is zero."""
+        parts = node.items["pose"].items
+        found = [self.quantity(parts[name]) if name in parts else _NO_TURN for name in POSE_PARTS]
+        x, y, z, roll, pitch, yaw = found
+        if x is None or y is None or z is None or roll is None or pitch is None or yaw is None:
+            return None
+        return PoseIn(str(node.items["frame"].value), (x, y, z), (roll, pitch, yaw))
 
     def quantity(self, node: JsonNode) -> Quantity | None:
         """`{"value": 2, "unit": "mL"}`; None where the unit is none, which is found."""

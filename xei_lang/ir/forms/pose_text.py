@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from xei_lang.ir.geometry import Pose
+from xei_lang.ir.skill_plan import PoseIn
 
 
 def millimetres(length_m: float) -> str:
@@ -19,6 +20,17 @@ def pose_text(pose: Pose) -> str:
     if roll or pitch:
         return f"{place} rpy ({roll:g}, {pitch:g}, {yaw:g}) deg"
     return f"{place} yaw {yaw:g} deg" if yaw else place
+
+
+def written_pose(pose: PoseIn) -> str:
+    """A pose as a protocol writes it, without rotations of zero."""
+    turns = zip(("roll", "pitch", "yaw"), pose.rotation, strict=True)
+    parts = [
+        *(f"{name}={part}" for name, part in zip("xyz", pose.position, strict=True)),
+        *(f"{name}={part}" for name, part in turns if part.magnitude),
+        f'frame="{pose.frame}"',
+    ]
+    return f"pose({', '.join(parts)})"
 
 
 def _rpy(pose: Pose) -> tuple[float, float, float]:

@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class ArgSpec(Record):
-    """An argument of a skill. `type` is `object`, `Place`, `Station`, `Arm`, a quantity's type, `Int`,
-    `Float`, `Bool`, `String`, or `choice` (then `choices` are its words). Bounds hold for quantities and
-    numbers, ends included.
+    """An argument of a skill. `type` is `object`, `Place`, `Pose`, `Station`, `Arm`, a quantity's type,
+    `Int`, `Float`, `Bool`, `String`, or `choice` (then `choices` are its words). Bounds hold for quantities
+    and numbers, ends included.
 
     For a Place, `choices` are the kinds that it admits (`slot`, `spot`, `surface`; empty admits all), and an
     object whose roles satisfy `roles` may be given for its whole surface. `roles_text` is what the profile

@@ -42,6 +42,7 @@ ReturnType = Literal[
 ArgType = Literal[
     "object",
     "Place",
+    "Pose",
     "Station",
     "Arm",
     "Volume",
