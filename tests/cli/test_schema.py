@@ -14,6 +14,7 @@ from click.testing import CliRunner, Result
 from tests.cli.pictures import image_of_the_table
 from tests.cli.xei import PROFILES, xei
 from tests.world.calibration.recorded import recorded
+from tests.world.map.ranging import recorded as recorded_scans
 from xei_lang.cli.schema_command import FORMS, command
 from xei_lang.cli.schema_command import PROFILES as PROFILE_FILES
 
@@ -62,6 +63,7 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[Any]]:
     found |= {"tags": [json.loads(seen.out)], "recording": [recorded(1, 6), recorded(1, 6, form="poses")]}
     found["scene_file"] = [yaml.safe_load(xei("world", "show", "--format", "scene", cwd=folder).out)]
     found["world"] = [json.loads(xei("world", "show", "--format", "json", cwd=folder).out)]
+    found["scans"] = [json.loads(line) for line in recorded_scans(2).splitlines()]
     found["doctor"] = [json.loads(xei("doctor", "--format", "json", cwd=folder).out)]
     return {"check": [json.loads(checked.out)], "trace": [json.loads(line) for line in lines], **found}
 

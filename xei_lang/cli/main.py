@@ -21,6 +21,7 @@ COMMANDS = {
     "world": "Show where everything is, and who said so.",
     "perception": "Find tags and tables in an image, or serve poses of objects.",
     "calibrate": "Solve a camera's place from a recording.",
+    "map": "Build the map that the base drives by, and look at it.",
     "explain": "Say more about a diagnostic's code.",
     "schema": "Print the JSON Schema of a form.",
 }

@@ -24,6 +24,7 @@ FORMS: Mapping[str, tuple[str, str]] = MappingProxyType(
         "trace": ("ir/forms/trace.schema.json", "a line of what `xei run --trace` writes"),
         "world": ("world/view/world.schema.json", "what `xei world show --format json` prints"),
         "scene_file": ("world/sources/scene_file.schema.json", "a recorded scene, as `--world` reads it"),
+        "scans": ("world/map/scans.schema.json", "a line of what `xei map build` reads"),
         "recording": ("world/calibration/recording.schema.json", "what `xei calibrate` reads"),
         "tags": ("world/perception/tags.schema.json", "what `xei perception detect --format json` prints"),
         "pose_request": ("world/perception/pose_request.schema.json", "what a pose service is asked"),

@@ -11,12 +11,17 @@ from xei_lang.diagnostics import Diagnostic, Diagnostics
 
 def write_text(path: Path, text: str) -> Diagnostics:
     """Write beside the target, then rename; a refusal of the system comes back as a diagnostic."""
+    return write_bytes(path, text.encode())
+
+
+def write_bytes(path: Path, data: bytes) -> Diagnostics:
+    """As `write_text`, for what is no text."""
     if path.is_dir():
         message = f"`{path}` is a folder, and a file was to be written"
         return (Diagnostic("XEI0101", message, help=("name a file with -o",)),)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        _replace(path, text.encode())
+        _replace(path, data)
     except OSError as error:
         return (_refused(path, error, ("choose another place with -o",)),)
     return ()

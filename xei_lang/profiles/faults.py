@@ -22,6 +22,8 @@ _KINDS = {
     "model_type": "a mapping of keys to values",
     "model_attributes_type": "a mapping of keys to values",
 }
+_A_NAME = "a name: small letters, digits and `_`, beginning with a letter"
+_PATTERNS = {"^[A-Za-z]": "one to four letters", "^[0-9]{4}-": "a day, such as `2026-11-20`"}
 
 
 def explain(error: ValidationError, root: Node, model: type[BaseModel]) -> Diagnostics:
@@ -119,10 +121,8 @@ def _wrong_value(details: ErrorDetails, path: Path, root: Node) -> Diagnostic:
         )
     reason = details["msg"].removeprefix("Input should ").removeprefix("Value error, ")
     if details["type"] == "string_pattern_mismatch":
-        row = details.get("ctx", {}).get("pattern", "").startswith("^[A-Za-z]")
-        wanted = (
-            "one to four letters" if row else "a name: small letters, digits and `_`, beginning with a letter"
-        )
+        pattern = details.get("ctx", {}).get("pattern", "")
+        wanted = next((words for start, words in _PATTERNS.items() if pattern.startswith(start)), _A_NAME)
         reason = f"must be {wanted}"
         span = root.key_span(*path) if details["loc"][-1] == "[key]" else root.span_of(*path)
         return Diagnostic(

@@ -25,10 +25,10 @@ def read_source(path: Path, shown: str) -> tuple[Source | None, Diagnostics]:
     return decode_source(data, shown)
 
 
-def decode_source(data: bytes, shown: str) -> tuple[Source | None, Diagnostics]:
-    """The text that bytes stand for, as `read_source` gives it."""
-    if len(data) > MAX_BYTES:
-        message = f"`{shown}` is larger than {MAX_BYTES // 1024**2} MiB"
+def decode_source(data: bytes, shown: str, limit: int = MAX_BYTES) -> tuple[Source | None, Diagnostics]:
+    """The text that bytes stand for, as `read_source` gives it; `limit` is how many there may be."""
+    if len(data) > limit:
+        message = f"`{shown}` is larger than {limit // 1024**2} MiB"
         return None, (Diagnostic("XEI0107", message),)
     try:
         text = data.decode("utf-8")

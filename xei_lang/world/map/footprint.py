@@ -44,7 +44,7 @@ class Footprint:
 def base_footprint(profile: Profile, urdf: str) -> Footprint | str:
     """The outline in `robot_base`, or why it cannot be had. `urdf` is the text of the robot's description."""
     base = dict(profile.calibration.robot_frames).get("robot_base", profile.robot.root)
-    links = _fixed_to(profile.robot, base)
+    links = fixed_links(profile.robot, base)
     T_base_root = T_base_link(profile.robot, base, {}).inverse()
     points: list[Point] = []
     for link in ElementTree.fromstring(urdf).findall("link"):
@@ -86,7 +86,7 @@ def _distance_to_side(a: Point, b: Point) -> float:
     return _cross(a, b, (0.0, 0.0)) / math.dist(a, b)
 
 
-def _fixed_to(robot: RobotDescription, base: str) -> frozenset[str]:
+def fixed_links(robot: RobotDescription, base: str) -> frozenset[str]:
     """The base and all links that hang on it through fixed joints, up and down the tree."""
     found, before = {base}, 0
     while len(found) > before:

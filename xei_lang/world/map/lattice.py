@@ -88,13 +88,16 @@ class _Lattice:
         return (self.blocked.shape[0] - self.floor.grid.cells.shape[0]) // 2
 
     def near(self, station: Station) -> list[Node]:
-        """Nodes near a pose: cells about it, with the headings next to its own."""
+        """Nodes near a pose: cells of the map about it, with the headings next to its own."""
         grid = self.floor.grid
         row, column = (int(index) + self.margin for index in grid.cells_at(np.array([station[:2]]))[0])
         yaw = station[2] - grid.origin[2]
         headings = sorted(range(HEADINGS), key=lambda k: abs(math.remainder(_YAWS[k] - yaw, math.tau)))[:3]
+        height, width = grid.shape
         about = range(-_NEAR, _NEAR + 1)
-        return [(row + dy, column + dx, k) for dy in about for dx in about for k in headings]
+        rows = [row + dy for dy in about if 0 <= row + dy - self.margin < height]
+        columns = [column + dx for dx in about if 0 <= column + dx - self.margin < width]
+        return [(r, c, k) for r in rows for c in columns for k in headings]
 
     def pose(self, node: Node) -> Station:
         grid = self.floor.grid

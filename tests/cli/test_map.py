@@ -1,0 +1,105 @@
+"""`xei map`: scans to a map, the map into the profile, and what it shows."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+import yaml
+from PIL import Image
+
+from tests.cli.xei import PROFILES, xei
+from tests.world.map.ranging import recorded
+
+
+@pytest.fixture
+def lab(tmp_path: Path) -> Path:
+    shutil.copytree(PROFILES, tmp_path / "profiles")
+    (tmp_path / "drive.jsonl").write_text(recorded(200, noise_m=0.01), encoding="utf-8")
+    return tmp_path
+
+
+def put_in(lab: Path, lines: str) -> None:
+    """Replace the section `map` of the profile by these lines."""
+    file = lab / "profiles" / "openarm_bench" / "calibration_profile.yaml"
+    text = file.read_text(encoding="utf-8")
+    start, end = text.index("\nmap:\n") + 1, text.index("\napriltags:\n")
+    file.write_text(text[:start] + lines + text[end:], encoding="utf-8")
+
+
+def test_a_recording_becomes_the_map_that_the_profile_names(lab: Path) -> None:
+    folder = lab / "profiles" / "openarm_bench" / "map"
+    ran = xei("map", "build", "drive.jsonl", "-o", str(folder), cwd=lab)
+    assert ran.code == 0, ran.err
+    assert "200 scans" in ran.err
+    written = (folder / "lab.yaml").read_bytes(), (folder / "lab.pgm").read_bytes()
+    section = yaml.safe_load(ran.out)["map"]
+    assert section == {
+        "frame": "map",
+        "yaml": "map/lab.yaml",
+        "image": "map/lab.pgm",
+        "sha256": hashlib.sha256(written[0] + written[1]).hexdigest(),
+        "status": "measured",
+        "measured_on": "2026-11-20",
+    }
+    again = xei("map", "build", "drive.jsonl", "-o", str(folder), "--quiet", cwd=lab)
+    assert (again.out, again.err) == (ran.out, "")
+    assert written == ((folder / "lab.yaml").read_bytes(), (folder / "lab.pgm").read_bytes())
+
+    put_in(lab, ran.out)
+    shown = xei("map", "show", "-o", "lab.png", cwd=lab)
+    # The room of the recording is not the bench's: at bench_a the map has a table's legs.
+    assert "station bench_a: at 0.00, 0.00 m, 0 deg; below the base" in shown.out
+    assert "station bench_b: at 0.00, -2.20 m, -90 deg; below the base free" in shown.out
+    with Image.open(lab / "lab.png") as drawn:
+        assert drawn.format == "PNG" and min(drawn.size) > 100
+    found = json.loads(xei("doctor", "--format", "json", cwd=lab).out)["blockers"]
+    assert "map" not in {one["item"] for one in found}
+    assert {one["item"] for one in found if one["code"] == "XEI0677"} == {
+        line.split()[1].rstrip(":").join(("stations.", ""))
+        for line in shown.out.splitlines()
+        if line.startswith("station") and not line.endswith(" free")
+    }
+    assert shown.code == (1 if any(one["code"] == "XEI0677" for one in found) else 0)
+
+
+def test_a_bench_without_a_map_has_none_to_show(lab: Path) -> None:
+    ran = xei("map", "show", cwd=lab)
+    assert (ran.code, ran.out) == (1, "")
+    assert "has no map" in ran.err and "xei map build" in ran.err
+
+
+def test_files_of_another_map_are_told_with_their_hash(lab: Path) -> None:
+    folder = lab / "profiles" / "openarm_bench" / "map"
+    put_in(lab, xei("map", "build", "drive.jsonl", "-o", str(folder), cwd=lab).out)
+    (folder / "lab.pgm").write_bytes((folder / "lab.pgm").read_bytes()[:-1] + b"\x00")
+    ran = xei("map", "show", cwd=lab)
+    assert ran.code == 1
+    assert "XEI0666" in ran.err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "says"),
+    [
+        (("nowhere.jsonl", "-o", "out"), 2, "does not exist"),
+        (("drive.jsonl",), 2, "--output"),
+        (("drive.jsonl", "-o", "out", "--resolution", "0"), 2, "--resolution"),
+        (("drive.jsonl", "-o", "out", "--name", "../lab"), 2, "without folders"),
+        (("profiles", "-o", "out"), 2, "is no file"),
+        (("bad.jsonl", "-o", "out"), 1, "XEI0667"),
+        (("binary.jsonl", "-o", "out"), 1, "UTF-8"),
+        (("drive.jsonl", "-o", "drive.jsonl"), 2, "cannot be written"),
+    ],
+)
+def test_what_cannot_be_built_from_is_told(
+    lab: Path, arguments: tuple[str, ...], code: int, says: str
+) -> None:
+    (lab / "bad.jsonl").write_text('{"version": 1}\n', encoding="utf-8")
+    (lab / "binary.jsonl").write_bytes(b"\xff\xfe\x00")
+    ran = xei("map", "build", *arguments, cwd=lab)
+    assert (ran.code, ran.out) == (code, ""), ran.err
+    assert says in ran.err
+    assert not (lab / "out").exists()

@@ -1,0 +1,168 @@
+"""`xei map`: the map that the base drives by, built from recorded scans and looked at."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from xei_lang.cli.exit_codes import INPUT_HAS_ERRORS
+from xei_lang.cli.lab import open_lab
+from xei_lang.cli.options import wants_color
+from xei_lang.cli.report import exit_code, show
+from xei_lang.cli.write_file import write_bytes, write_text
+from xei_lang.diagnostics import Diagnostic, Diagnostics
+from xei_lang.profiles.model import Profile
+from xei_lang.syntax.reading import decode_source
+
+if TYPE_CHECKING:
+    from xei_lang.world.map.grid import OccupancyGrid
+    from xei_lang.world.map.recording import Scans
+
+MAX_RECORDING_BYTES = 500_000_000
+
+
+@click.group("map")
+def command() -> None:
+    """Build the map that the base drives by, and look at it.
+
+    Example: xei map build drive.jsonl -o profiles/openarm_bench/map
+    """
+
+
+@command.command("build")
+@click.argument("recording", type=click.Path(path_type=Path), metavar="RECORDING")
+@click.option(
+    "-o", "--output", type=click.Path(path_type=Path), required=True, help="The folder for the map's files."
+)
+@click.option("--name", default="lab", show_default=True, help="What the files are called.")
+@click.option(
+    "--resolution",
+    type=click.FloatRange(0.005, 1.0),
+    default=0.05,
+    show_default=True,
+    help="Metres a cell.",
+)
+@click.option("--profile", metavar="NAME|FOLDER", help="The profile; needed where there are several.")
+@click.option("--quiet", is_flag=True, help="Print the lines and errors only.")
+@click.option("--color", type=click.Choice(["auto", "always", "never"]), default="auto", show_default=True)
+def build(
+    *,
+    recording: Path,
+    output: Path,
+    name: str,
+    resolution: float,
+    profile: str | None,
+    quiet: bool,
+    color: str,
+) -> None:
+    """Build a map from recorded lidar scans and the poses that they were taken at.
+
+    Writes a map of ROS map_server (YAML and PGM), and prints the lines of `calibration_profile.yaml` that
+    name it. A line of the recording has the form of `xei schema scans`.
+
+    Example: xei map build drive.jsonl -o profiles/openarm_bench/map
+    """
+    colored = wants_color(color)
+    if Path(name).name != name or name.startswith("."):
+        raise click.BadParameter("a name without folders", param_hint="--name")
+    lab = open_lab(profile, colored)
+    said = _build(recording, lab, output, name, resolution, quiet=quiet, colored=colored)
+    sys.exit(said)
+
+
+def _build(
+    path: Path, lab: Profile, output: Path, name: str, resolution_m: float, *, quiet: bool, colored: bool
+) -> int:
+    from xei_lang.profiles.map_files import read_limited
+    from xei_lang.world.map.build_map import build_map
+    from xei_lang.world.map.recording import read_scans
+
+    data = read_limited(path, MAX_RECORDING_BYTES)
+    if isinstance(data, str):
+        return _show((Diagnostic("XEI0101", f"`{path}` {data}"),), colored)
+    source, said = decode_source(data, str(path), MAX_RECORDING_BYTES)
+    if source is None:
+        return _show(said, colored)
+    scans, said = read_scans(source, lab)
+    if scans is None:
+        show(said, {source.file: source}, colored)
+        return exit_code(said)
+    if not quiet:
+        click.echo(f"{len(scans.poses)} scans of `{scans.lidar}`, of {len(scans.angles_rad)} rays", err=True)
+    grid = build_map(scans, resolution_m)
+    if isinstance(grid, Diagnostic):
+        return _show((grid,), colored)
+    if not quiet:
+        from xei_lang.world.map.picture import size_text
+
+        click.echo(size_text(grid), err=True)
+    return _show(_deliver(grid, scans, lab, output, name), colored)
+
+
+def _deliver(grid: OccupancyGrid, scans: Scans, lab: Profile, output: Path, name: str) -> Diagnostics:
+    from xei_lang.profiles.map_files import map_sha256
+    from xei_lang.world.map.write_map import image_bytes, profile_lines, yaml_text
+
+    yaml, image = yaml_text(grid, f"{name}.pgm"), image_bytes(grid)
+    said = write_bytes(output / f"{name}.pgm", image) or write_text(output / f"{name}.yaml", yaml)
+    if not said:
+        inside = output.resolve().is_relative_to(Path(lab.folder).resolve())
+        below = output.resolve().relative_to(Path(lab.folder).resolve()).as_posix() if inside else "map"
+        sha256 = map_sha256(yaml.encode(), image)
+        frame = lab.calibration.map_frame
+        folder = "" if below == "." else below
+        click.echo(profile_lines(frame, folder, name, sha256, scans.recorded_on), nl=False)
+    return said
+
+
+@command.command("show")
+@click.option("--profile", metavar="NAME|FOLDER", help="The profile; needed where there are several.")
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path),
+    help="Draw the map with stations and drives: a PNG file.",
+)
+@click.option("--quiet", is_flag=True, help="Print the summary and errors only.")
+@click.option("--color", type=click.Choice(["auto", "always", "never"]), default="auto", show_default=True)
+def show_map(*, profile: str | None, output: Path | None, quiet: bool, color: str) -> None:
+    """Say what the profile's map shows: its size, how the base stands at each station, and every drive.
+
+    The exit code is 1 where the map cannot be used or speaks against the profile.
+
+    Example: xei map show -o lab.png
+    """
+    colored = wants_color(color)
+    lab = open_lab(profile, colored)
+    named = lab.calibration.map
+    if named is None or not named.is_named:
+        message = f"the profile `{lab.name}` has no map"
+        help_ = "record a drive, and see `xei map build --help`"
+        show((Diagnostic("XEI0665", message, named.span if named else None, help=(help_,)),), {}, colored)
+        sys.exit(INPUT_HAS_ERRORS)
+    from xei_lang.world.ground import ground
+    from xei_lang.world.map.deployed import look_at_map
+
+    world, said = ground(lab)
+    if world is None:
+        sys.exit(_show(said, colored))
+    seen = look_at_map(lab, world)
+    show(seen.diagnostics, {}, colored)
+    if seen.floor is not None:
+        from xei_lang.world.map.picture import picture_png, summary
+
+        click.echo(summary(lab, world, seen, seen.floor), nl=False)
+        failed = write_bytes(output, picture_png(lab, world, seen, seen.floor)) if output else ()
+        if failed:
+            sys.exit(_show(failed, colored))
+        if output and not quiet:
+            click.echo(f"drawn to {output}", err=True)
+    sys.exit(INPUT_HAS_ERRORS if seen.faults else 0)
+
+
+def _show(said: Diagnostics, colored: bool) -> int:
+    show(said, {}, colored)
+    return exit_code(said)
