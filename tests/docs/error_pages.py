@@ -8,7 +8,8 @@ A page has the code and its title from the catalogue, what it means, then `## Wh
   stands for it;
 - a line "In a file `name.csv`:" before a `csv` or `xei` block writes it under that name;
 - a line "In `usage_profile.yaml`:" before a `diff` block changes that file in a copy of the bench's profile;
-- a line "In a file `name`:" before a `text` block writes it, too;
+- a line "In a file `name`:" before a `text` block writes it, too; in a scene file, `...` stands for the digest
+  of the bench's objects;
 - a `yaml` or `xml` block in a fix shows lines that the bench's profile has;
 - where a `sh` block of the example calls `xei doctor`, the blockers that the bench does not have are meant.
 
@@ -20,7 +21,11 @@ from __future__ import annotations
 import re
 import shutil
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
+
+from xei_lang.profiles.load import load_profile
+from xei_lang.world.sources.identity import objects_sha256
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "docs" / "errors"
@@ -29,9 +34,17 @@ NOT_RUN = "---\nexample: not run in tests\n---\n\n"
 EXAMPLE = "example.xei"
 PLAIN = 'protocol p {\n  profile "openarm_bench"\n  wait 1 s\n}\n'
 
+_UNTOLD = "objects_sha256: ..."
 _BLOCK = re.compile(
     r"(?:^In (?:a file )?`(?P<file>[\w./]+)`:\n\n)?^```(?P<language>[a-z]+)\n(?P<body>.*?)^```$", re.S | re.M
 )
+
+
+@cache
+def _digest() -> str:
+    profile, said = load_profile(BENCH, None)
+    assert profile is not None, said
+    return objects_sha256(profile)
 
 
 @dataclass(frozen=True)
@@ -93,7 +106,7 @@ class Page:
                 assert block["file"], f"{self.code}: a diff stands under a line that names its file"
                 changes.append(Change(block["file"], block["body"]))
             elif block["language"] == "text" and block["file"]:
-                files[block["file"]] = block["body"]
+                files[block["file"]] = block["body"].replace(_UNTOLD, f"objects_sha256: {_digest()}")
             elif block["language"] == "csv":
                 assert block["file"], f"{self.code}: a table stands under a line that names its file"
                 files[block["file"]] = block["body"]

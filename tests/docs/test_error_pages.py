@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import shlex
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
 import pytest
 
 from tests.docs.error_pages import BENCH, FOLDER, Page, Section, read_page
-from xei_lang.diagnostics import CATALOGUE, Diagnostics, Source
+from xei_lang.cli.worlds import observed_by
+from xei_lang.diagnostics import CATALOGUE, Diagnostics, Source, has_errors
 from xei_lang.diagnostics.render.full import render_full
 from xei_lang.doctor import deployment_blockers
 from xei_lang.pipeline import ALL, FRONT, Request, compile_request
@@ -21,7 +23,7 @@ RUN = [page for page in PAGES if page.is_run]
 TO_GOALS = ALL[: [step.adds for step in ALL].index("graph") + 1]
 NOT_REACHED = {
     "XEI0101", "XEI0102", "XEI0107", "XEI0109", "XEI0204", "XEI0321",
-    "XEI0667",
+    "XEI0662", "XEI0667",
     "XEI0680", "XEI0681", "XEI0682", "XEI0683", "XEI0684", "XEI0685", "XEI0686", "XEI0687", "XEI0688",
     "XEI0690", "XEI0691", "XEI0692", "XEI0693", "XEI0694",
     "XEI0695", "XEI0696", "XEI0697", "XEI0698", "XEI0699",
@@ -99,7 +101,14 @@ def _codes(page: Page, section: Section, folder: Path, monkeypatch: pytest.Monke
     )
     source = Source(path.name, text)
     request = Request(source, bindings=bindings, open_bindings=not compiles, strict="--strict" in words)
-    said = compile_request(request, TO_GOALS if compiles else FRONT).diagnostics
+    observed, said = (), ()
+    if "--world" in words:
+        profile = compile_request(request, FRONT[:2]).made.profile
+        assert profile is not None
+        observed, said = observed_by(words[words.index("--world") + 1], profile)
+    if not has_errors(said):
+        request = replace(request, observed=observed)
+        said = (*said, *compile_request(request, TO_GOALS if compiles else FRONT).diagnostics)
     return {item.code for item in _told(said, page, source)}
 
 
