@@ -10,6 +10,7 @@ A page has the code and its title from the catalogue, what it means, then `## Wh
 - a line "In `usage_profile.yaml`:" before a `diff` block changes that file in a copy of the bench's profile;
 - a line "In a file `name`:" before a `text` block writes it, too; in a scene file, `...` stands for the digest
   of the bench's objects;
+- a `json` block is a plan, `plan.json`, and is checked as `xei check plan.json` does;
 - a `yaml` or `xml` block in a fix shows lines that the bench's profile has;
 - where a `sh` block of the example calls `xei doctor`, the blockers that the bench does not have are meant.
 
@@ -32,6 +33,7 @@ FOLDER = ROOT / "docs" / "errors"
 BENCH = ROOT / "profiles" / "openarm_bench"
 NOT_RUN = "---\nexample: not run in tests\n---\n\n"
 EXAMPLE = "example.xei"
+PLAN = "plan.json"
 PLAIN = 'protocol p {\n  profile "openarm_bench"\n  wait 1 s\n}\n'
 
 _UNTOLD = "objects_sha256: ..."
@@ -70,7 +72,9 @@ class Section:
 
     changes: tuple[Change, ...]
     files: dict[str, str]
-    """Its `xei` and `csv` blocks by their names, in their order; the last protocol is what is checked."""
+    """Its `xei`, `csv` and `json` blocks by their names, in their order; the last protocol, or the plan, is what
+    is checked.
+    """
     profile_lines: tuple[str, ...]
     """Blocks of YAML or XML, which show lines as the bench has them."""
 
@@ -80,6 +84,8 @@ class Section:
         for change in self.changes:
             change.apply(folder / "profiles" / BENCH.name)
         protocols = [name for name in self.files if name.endswith(".xei")]
+        if not protocols and PLAN in self.files:
+            protocols = [PLAN]
         files = self.files if protocols else {**self.files, EXAMPLE: PLAIN}
         for name, text in files.items():
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -107,6 +113,8 @@ class Page:
                 changes.append(Change(block["file"], block["body"]))
             elif block["language"] == "text" and block["file"]:
                 files[block["file"]] = block["body"].replace(_UNTOLD, f"objects_sha256: {_digest()}")
+            elif block["language"] == "json":
+                files[PLAN] = block["body"]
             elif block["language"] == "csv":
                 assert block["file"], f"{self.code}: a table stands under a line that names its file"
                 files[block["file"]] = block["body"]

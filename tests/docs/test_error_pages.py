@@ -9,8 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.docs.error_pages import BENCH, FOLDER, Page, Section, read_page
-from xei_lang.cli.worlds import observed_by
+from tests.docs.error_pages import BENCH, FOLDER, PLAN, Page, Section, read_page
+from xei_lang.check.plan_file.check import check_plan, read_plan_text
+from xei_lang.cli.worlds import observed_in
 from xei_lang.diagnostics import CATALOGUE, Diagnostics, Source, has_errors
 from xei_lang.diagnostics.render.full import render_full
 from xei_lang.doctor import deployment_blockers
@@ -90,6 +91,8 @@ def _codes(page: Page, section: Section, folder: Path, monkeypatch: pytest.Monke
     if page.is_of_doctor:
         return _blockers(folder / "profiles" / BENCH.name) - _blockers(BENCH)
     text = path.read_text(encoding="utf-8")
+    if path.name == PLAN:
+        return {item.code for item in _of_plan(Source(path.name, text), folder / "profiles" / BENCH.name)}
     first = text.partition("\n")[0]
     words = shlex.split(first.removeprefix("# ")) if first.startswith("# xei ") else []
     compiles = words[1:2] == ["compile"] or page.code >= "XEI06"
@@ -105,11 +108,22 @@ def _codes(page: Page, section: Section, folder: Path, monkeypatch: pytest.Monke
     if "--world" in words:
         profile = compile_request(request, FRONT[:2]).made.profile
         assert profile is not None
-        observed, said = observed_by(words[words.index("--world") + 1], profile)
+        observed, said = observed_in(words[words.index("--world") + 1], profile)
     if not has_errors(said):
         request = replace(request, observed=observed)
         said = (*said, *compile_request(request, TO_GOALS if compiles else FRONT).diagnostics)
     return {item.code for item in _told(said, page, source)}
+
+
+def _of_plan(source: Source, profile: Path) -> Diagnostics:
+    """What is said of a plan that came from elsewhere."""
+    loaded, said = load_profile(profile, None)
+    assert loaded is not None, said
+    read, found = read_plan_text(source)
+    if read is not None:
+        found = (*found, *check_plan(read, source, loaded, {})[1])
+    print(render_full(found, {source.file: source}))
+    return found
 
 
 def _told(said: Diagnostics, page: Page, source: Source) -> Diagnostics:
