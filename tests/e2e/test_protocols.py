@@ -32,6 +32,7 @@ def made_of(path: Path) -> Handoffs:
 
 def test_there_are_protocols() -> None:
     assert {path.stem for path in PROTOCOLS} >= {
+        "pipette_sample",
         "pour_and_wipe",
         "put_on_rack",
         "rack_six_tubes",

@@ -7,6 +7,7 @@ from dataclasses import replace
 from tests.lower.plans import bench, obj, plan, slot, spot, with_object
 from xei_lang.ir.skill_plan import SkillPlan
 from xei_lang.lower import imprecise_tasks
+from xei_lang.quantity import quantity
 from xei_lang.world.precision import slot_precision
 
 
@@ -57,3 +58,27 @@ def test_the_better_of_two_ways_counts() -> None:
     assert docked is not None
     assert docked.way.path == ("robot_base", "world", "table")
     assert docked.tolerance_m > 0.08 > found.tolerance_m
+
+
+def test_tips_and_openings_ask_for_a_place_known_well() -> None:
+    profile, world = bench()
+    pipette, arm = obj("pipette_1"), "right"
+    steps = plan(
+        ("attach_tip", {"pipette": pipette, "tip": slot("tip_box_1", "A1"), "arm": arm}),
+        ("aspirate", {"pipette": pipette, "source": obj("tube_3"), "volume": quantity(1, "mL"), "arm": arm}),
+        (
+            "dispense",
+            {"pipette": pipette, "target": obj("beaker_1"), "volume": quantity(1, "mL"), "arm": arm},
+        ),
+    )
+    told = list(imprecise_tasks(steps, profile, world))
+    assert [item.message for item in told] == [
+        '`pipette_1` may miss `tip_box_1.slot("A1")`',
+        "`pipette_1` may miss `tube_3`",
+    ]
+    assert "the tip takes an error of 0.8 mm" in told[0].label
+    assert "the opening takes an error of 2.9 mm" in told[1].label
+    exact = tuple(
+        replace(frame, position_tolerance_m=0.0, rotation_tolerance_rad=0.0) for frame in world.frames
+    )
+    assert not list(imprecise_tasks(steps, profile, replace(world, frames=exact)))

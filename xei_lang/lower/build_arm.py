@@ -70,7 +70,7 @@ def _move_to_point(task: Task, line: TemplateStep, path: PathKind, speed: Speed)
     planned = task.planned(operation, argument, arm, line)
     aim, way = planned.aims[point], way_of(task, line, path, arm)
     before = task.scene
-    after = before.touch(arm, aim.support).reach(arm, aim.around)
+    after = before.touch(arm, aim.support, aim.entered).reach(arm, aim.around)
     uses = tuple(planned.settings[name].provenance() for name in aim.uses if name in planned.settings)
     allowed = contacts(before.reach(arm, ""), after.reach(arm, ""), arm if path == "free" else None)
     if aim.fingertips and path != "free":

@@ -41,8 +41,8 @@ class Builder:
 
 def contacts(before: Scene, after: Scene, flying: Side | None = None) -> tuple[Contact, ...]:
     """The pairs that may touch between two scenes, sorted: what a hand holds or closes on with that hand,
-    and what is held with the support that it has not left yet or comes to rest on. A hand that flies freely
-    touches no support.
+    and what is held with the support that it has not left yet or comes to rest on, and with what it goes
+    into or comes out of. A hand that flies freely touches no support.
     """
     pairs: list[Contact] = []
     for side, name in after.reached.items():
@@ -50,6 +50,7 @@ def contacts(before: Scene, after: Scene, flying: Side | None = None) -> tuple[C
     for scene in (before, after):
         for side, held in scene.held.items():
             pairs.extend((held.object, body) for body in hand_bodies(side))
-            if held.touching and side != flying:
-                pairs.append((held.object, held.touching))
+            if side != flying:
+                others = (*((held.touching,) if held.touching else ()), *held.entered)
+                pairs.extend((held.object, other) for other in others)
     return tuple(sorted(dict.fromkeys(pairs)))

@@ -1,4 +1,6 @@
-"""Tasks that ask for more than is known: an object into a slot whose place is known worse than the gap."""
+"""Tasks that ask for more than is known: an object into a slot, a pipette onto a tip, a tip into a vessel,
+whose place is known worse than the gap.
+"""
 
 from __future__ import annotations
 
@@ -9,19 +11,26 @@ from xei_lang.check.effects import effects_of, moves
 from xei_lang.diagnostics import Diagnostic
 from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, SkillPlan, Step
 from xei_lang.ir.world import World
+from xei_lang.lower.precision_of_tips import tip_fits
 from xei_lang.lower.seats import place_text
 from xei_lang.profiles.model import Profile
 from xei_lang.world.precision import SlotPrecision, slot_precision
 from xei_lang.world.transforms import Transform
 
+_CHAMFER = ", or use slots with a wider chamfer"
+
 
 def imprecise_tasks(plan: SkillPlan, profile: Profile, world: World) -> Iterator[Diagnostic]:
-    """One warning for each object with slots, at the first step that puts something into one.
+    """One warning for each object that something goes into, at the first step that does so.
 
     A simulation knows where everything is; on hardware such a task is a matter of luck.
     """
     warned: set[str] = set()
     for step in plan.steps:
+        for fit in tip_fits(step, profile, world):
+            if fit.holder not in warned and not fit.found.is_enough:
+                warned.add(fit.holder)
+                yield _warning(step, fit.item, fit.where, fit.found, fit.label)
         for name, place in _insertions(step, profile):
             holder, item = profile.object(place.object), profile.object(name)
             if holder is None or item is None or holder.name in warned:
@@ -29,7 +38,7 @@ def imprecise_tasks(plan: SkillPlan, profile: Profile, world: World) -> Iterator
             found = slot_precision(world, profile, holder, place.key, item)
             if found is not None and not found.is_enough:
                 warned.add(holder.name)
-                yield _warning(step, name, place, found)
+                yield _warning(step, name, place_text(place), found, "the slot takes an error of", _CHAMFER)
 
 
 def _insertions(step: Step, profile: Profile) -> Iterator[tuple[str, PlaceRef]]:
@@ -40,16 +49,16 @@ def _insertions(step: Step, profile: Profile) -> Iterator[tuple[str, PlaceRef]]:
             yield item.name, place
 
 
-def _warning(step: Step, name: str, place: PlaceRef, found: SlotPrecision) -> Diagnostic:
+def _warning(
+    step: Step, name: str, where: str, found: SlotPrecision, label: str, mend: str = ""
+) -> Diagnostic:
     return Diagnostic(
         "XEI0717",
-        f"`{name}` may miss `{place_text(place)}`",
+        f"`{name}` may miss `{where}`",
         step.span,
-        label=f"the slot takes an error of {_mm(found.capture_m)}, and may be {_mm(found.tolerance_m)} off",
+        label=f"{label} {_mm(found.capture_m)}, and may be {_mm(found.tolerance_m)} off",
         notes=(f"known by way of {_shown(found.way)}",),
-        help=(
-            "measure these transforms more closely, or use slots with a wider chamfer; a simulation goes on",
-        ),
+        help=(f"measure these transforms more closely{mend}; a simulation goes on",),
     )
 
 

@@ -38,7 +38,7 @@ class Held:
     saw it.
 
     `sunk_m` is how deep it stood in its slot. `touching` names the support that it has not left yet, or
-    reaches at the end of a linear move; empty in the air.
+    reaches at the end of a linear move; empty in the air. `entered` names what it has gone into.
     """
 
     object: str
@@ -50,6 +50,7 @@ class Held:
     sunk_m: float
     touching: str
     since: Label
+    entered: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,11 +103,12 @@ class Scene:
         held = {key: item for key, item in self.held.items() if key != side}
         return replace(self, held=held, standing={**self.standing, standing.object: standing})
 
-    def touch(self, side: Side, support: str) -> Scene:
-        """What the hand holds now touches this support (empty: nothing)."""
+    def touch(self, side: Side, support: str, entered: tuple[str, ...] = ()) -> Scene:
+        """What the hand holds now touches this support (empty: nothing) and stands in what it has entered."""
         if side not in self.held:
             return self
-        return replace(self, held={**self.held, side: replace(self.held[side], touching=support)})
+        held = replace(self.held[side], touching=support, entered=entered)
+        return replace(self, held={**self.held, side: held})
 
     def reach(self, side: Side, name: str) -> Scene:
         """The open hand now stands around this object (empty: around none)."""

@@ -16,6 +16,7 @@ from xei_lang.profiles.model import (
     Prior,
     SlotGrid,
     Spot,
+    Tip,
 )
 from xei_lang.profiles.schema.usage import ObjectModel, PriorModel, ShapeModel
 from xei_lang.profiles.yaml_tree import Node, Path
@@ -62,6 +63,7 @@ def build_object(
             for key, spot in model.spots.items()
         ),
         elements=_elements(model, root, path),
+        tip=_tip(model, root, path),
         prior=prior,
         assets=(("mesh", model.assets.mesh), ("point_cloud", model.assets.point_cloud)),
         system=system,
@@ -143,6 +145,14 @@ def _slots(model: ObjectModel, root: Node, path: Path) -> SlotGrid | None:
         accepts=tuple(slots.accepts),
         span=root.key_span(*path, "slots"),
     )
+
+
+def _tip(model: ObjectModel, root: Node, path: Path) -> Tip | None:
+    tip = model.tip
+    if tip is None:
+        return None
+    span = root.key_span(*path, "tip")
+    return Tip(tip.length.si, tip.diameter.si, tip.seat.si, tip.capacity.si, span)
 
 
 def _elements(model: ObjectModel, root: Node, path: Path) -> tuple[Element, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from xei_lang.ir.geometry import Pose
+from xei_lang.ir.geometry import Pose, Vec3
 from xei_lang.ir.world import World
 from xei_lang.profiles.grid import T_object_slot
 from xei_lang.profiles.model import LabObject, Profile
@@ -38,14 +38,26 @@ def slot_precision(
 
     The bench is taken to be grounded by a camera wherever that is better than the way over the docked base.
     """
-    grid, placed, T_holder_slot = holder.slots, world.find(holder.name), T_object_slot(holder, key)
-    if grid is None or placed is None or T_holder_slot is None:
+    grid, T_holder_slot = holder.slots, T_object_slot(holder, key)
+    if grid is None or T_holder_slot is None:
+        return None
+    capture_m = (grid.bore_m - max(item.size_m[:2])) / 2 + grid.chamfer_m
+    return point_precision(world, profile, holder.name, T_holder_slot.position_m, capture_m)
+
+
+def point_precision(
+    world: World, profile: Profile, holder: str, point_m: Vec3, capture_m: float
+) -> SlotPrecision | None:
+    """The precision of a point of an object, in the object's frame, for what may miss it by `capture_m`; None
+    where the object has no place in the world.
+    """
+    placed = world.find(holder)
+    if placed is None:
         return None
     frame = placed.frame_id
-    T_world_slot = world.T_world_frame(frame) @ placed.T_frame_object @ T_holder_slot
-    ways = [_way(world, end, T_world_slot) for end in (frame, *_cameras(world, profile))]
+    T_world_point = world.T_world_frame(frame) @ placed.T_frame_object @ Pose(point_m)
+    ways = [_way(world, end, T_world_point) for end in (frame, *_cameras(world, profile))]
     best = min(ways, key=lambda way: way.position_tolerance_m)
-    capture_m = (grid.bore_m - max(item.size_m[:2])) / 2 + grid.chamfer_m
     return SlotPrecision(capture_m, best.position_tolerance_m, best)
 
 

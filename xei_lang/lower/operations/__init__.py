@@ -5,15 +5,31 @@
 from __future__ import annotations
 
 from xei_lang.lower.operations.base import Aim, Area, Axis, Operation, Planned, Work
+from xei_lang.lower.operations.draw import ASPIRATE, DISPENSE
 from xei_lang.lower.operations.grasp import GRASP
 from xei_lang.lower.operations.invert import INVERT, SHAKE
 from xei_lang.lower.operations.lift import LIFT
 from xei_lang.lower.operations.place import PLACE
 from xei_lang.lower.operations.pour import POUR
 from xei_lang.lower.operations.tap import SWIPE, TAP
+from xei_lang.lower.operations.tip import EJECT, TIP
 from xei_lang.lower.operations.wipe import WIPE
 
-OPERATIONS: tuple[Operation, ...] = (GRASP, LIFT, PLACE, POUR, TAP, SWIPE, WIPE, INVERT, SHAKE)
+OPERATIONS: tuple[Operation, ...] = (
+    GRASP,
+    LIFT,
+    PLACE,
+    POUR,
+    TAP,
+    SWIPE,
+    WIPE,
+    INVERT,
+    SHAKE,
+    TIP,
+    ASPIRATE,
+    DISPENSE,
+    EJECT,
+)
 
 
 def operation_of_point(point: str) -> Operation | None:

@@ -40,7 +40,8 @@ class Aim:
     """A point of an operation: where the tool goes, and which parameters made it so.
 
     `support` is what the held object may touch once it is there; `around` is the object that the open jaws
-    then enclose; `fingertips` is what the fingers themselves may touch on the way there or away.
+    then enclose; `fingertips` is what the fingers themselves may touch on the way there or away; `entered`
+    is what the held object goes into there, and may touch until it has come out again.
     """
 
     target: ToolTarget
@@ -48,6 +49,7 @@ class Aim:
     support: str = ""
     around: str = ""
     fingertips: str = ""
+    entered: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,6 +21,11 @@ POINTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
         "object": (
             "pregrasp",
+            "aspirate_above",
+            "aspirate",
+            "dispense_above",
+            "dispense",
+            "eject",
             "grasp",
             "lift",
             "pour_above",
@@ -38,6 +43,8 @@ POINTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
             "shake_right",
         ),
         "Place": (
+            "tip_above",
+            "tip_on",
             "above",
             "place",
             "retreat",

@@ -13,6 +13,8 @@ from xei_lang.syntax import ast
 READ: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
         "pour": ("volume",),
+        "aspirate": ("volume",),
+        "dispense": ("volume",),
         "tap": ("element",),
         "swipe": ("element", "direction", "distance"),
         "wipe": ("length", "width"),

@@ -42,6 +42,7 @@ from xei_lang.profiles.model.lab import (
     Prior,
     SlotGrid,
     Spot,
+    Tip,
 )
 from xei_lang.profiles.model.robot import NamedState, RobotDescription, RobotJoint
 from xei_lang.record import Record
@@ -79,6 +80,7 @@ __all__ = [
     "Tag",
     "TagLayout",
     "TemplateStep",
+    "Tip",
 ]
 
 

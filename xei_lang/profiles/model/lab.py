@@ -69,6 +69,21 @@ class Element(Record):
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Tip(Record):
+    """The tips that a pipette takes: length and widest outer diameter of one, how deep the nose sits in it
+    (m), and what it holds (m3).
+
+    The pipette's own frame is where the end of a tip on it is.
+    """
+
+    length_m: float
+    diameter_m: float
+    seat_m: float
+    capacity_m3: float
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Prior(Record):
     """Where an object is believed to be: in a place of another object, or (`in_object` empty) at a pose in a
     frame.
@@ -118,3 +133,4 @@ class LabObject(Record):
     assets: tuple[tuple[str, str | None], ...]
     system: bool
     span: Span
+    tip: Tip | None = None

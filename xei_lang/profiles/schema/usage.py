@@ -91,6 +91,17 @@ class ElementModel(Model):
     size: SizePair
 
 
+class TipModel(Model):
+    """The tips that a pipette takes: length and widest outer diameter of one, how deep the pipette's nose sits
+    in it, and what it holds.
+    """
+
+    length: Size
+    diameter: Size
+    seat: Size
+    capacity: Volume
+
+
 class PriorModel(Model):
     """Where an object should be: `in` a place such as `rack_1.slot("A1")`, or at a pose in a frame."""
 
@@ -124,6 +135,7 @@ class ObjectModel(Model):
     slots: SlotsModel | None = None
     spots: dict[Name, SpotModel] = Field(default={})
     elements: dict[Name, ElementModel] = Field(default={})
+    tip: TipModel | None = None
     prior: PriorModel | None = None
 
 
