@@ -50,7 +50,7 @@ def with_head(**changed: object) -> str:
         (with_head(lidar="bse"), "no lidar `bse`"),
         (with_head(recorded_on="yesterday"), "`yesterday` must be a day"),
         (with_head(range_min_m=20.0), "no range"),
-        (with_head(angle_increment_rad=0.0), "no range or no direction"),
+        (with_head(angle_increment_rad=0.0), "one direction"),
         (with_head(stray=1), "`stray` is not a key"),
         (with_scan(base=[0.0, 0.0]), "`base`"),
         (with_scan(base=[0.0, 0.0, 90.0]), "yaw of 90"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 from pathlib import PurePosixPath
 
@@ -161,7 +161,8 @@ def _in_world(pose: Station, T_world_map: Pose) -> Station:
     return (x, y, math.remainder(pose[2] + yaw_of(T_world_map), math.tau))
 
 
-def _unreadable(named: MapFiles, said: Diagnostics, status: str) -> MapFault:
+def _unreadable(named: MapFiles, found: Diagnostics, status: str) -> MapFault:
+    said = tuple(one if one.span else replace(one, span=named.span) for one in found)
     measure = "; ".join(dict.fromkeys(one.message for one in said)) + ": build the map again, or copy it here"
     return MapFault("map", status, measure, f"{CALIBRATION}:map", said)
 
@@ -169,7 +170,7 @@ def _unreadable(named: MapFiles, said: Diagnostics, status: str) -> MapFault:
 def _another(named: MapFiles, opened: MapBytes) -> MapFault:
     message = f"`{named.yaml}` and `{named.image}` are not the map that was recorded"
     label = f"the files have {opened.sha256[:12]}..."
-    help_ = f"copy that map back, or, if this is the right one, write `sha256: {opened.sha256}`"
+    help_ = f'copy that map back, or, if this is the right one, write `sha256: "{opened.sha256}"`'
     note = "everything that was measured in the map's frame holds for the map that it was measured with"
     said = Diagnostic("XEI0666", message, named.sha256_span, label, notes=(note,), help=(help_,))
     measure = f"copy the recorded map back; the files that are there have {opened.sha256}"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
@@ -61,12 +61,12 @@ def read_scans(source: Source, profile: Profile) -> tuple[Scans | None, Diagnost
             break
     if head is None or found:
         return None, tuple(found)
-    first = Span(source.file, lines[0][0], lines[0][0] + len(lines[0][1]))
-    mounted = _mounted(head, profile, first)
+    mounted = _mounted(head, profile, lambda key: _place(source, *lines[0], key))
     if isinstance(mounted, Diagnostic):
         return None, (mounted,)
     if not scans:
-        return None, (Diagnostic(CODE, f"`{source.file}` has no scan", first, "a line a scan follows this"),)
+        end = Span(source.file, len(source.text), len(source.text))
+        return None, (Diagnostic(CODE, f"`{source.file}` has no scan", end, "a line a scan is missing"),)
     return _scans(head, scans, mounted), ()
 
 
@@ -101,7 +101,7 @@ def _parsed(source: Source, start: int, text: str, model: type[M], found: list[D
     except ValidationError as error:
         root, faults = read_yaml(source.file, text)
         if error.errors(include_url=False)[0]["type"] == "json_invalid" or root is None or faults:
-            span = Span(source.file, start, start + len(text))
+            span = Span(source.file, start, start + 1)
             number = source.line_number(start)
             help_ = "each line is an object of its own; JSON has no NaN: write null where no echo came back"
             found.append(Diagnostic(CODE, f"line {number} is no JSON object", span, help=(help_,)))
@@ -121,12 +121,14 @@ def _is_odd(
     source: Source, scan: ScanModel, before: list[ScanModel], start: int, text: str, found: list[Diagnostic]
 ) -> bool:
     """Whether a scan cannot belong to those before it; says why."""
-    number, span = source.line_number(start), Span(source.file, start, start + len(text))
+    number, key = source.line_number(start), "base"
     last = before[-1] if before else scan
     message, help_ = "", ""
     if len(scan.ranges_m) != len(last.ranges_m):
         message = f"the scan of line {number} has {len(scan.ranges_m)} ranges, not {len(last.ranges_m)}"
+        key = "ranges_m"
     elif scan.stamp_s < last.stamp_s:
+        key = "stamp_s"
         message = f"the scan of line {number} was taken before the one above it"
         help_ = "sort the scans by their stamps, and record one drive in a file"
     elif abs(scan.base[2]) > math.tau:
@@ -136,21 +138,31 @@ def _is_odd(
         message = f"the scan of line {number} was taken more than 10 km away from the map's frame"
         help_ = "positions are in metres"
     if message:
-        found.append(Diagnostic(CODE, message, span, help=(help_,) if help_ else ()))
+        place = _place(source, start, text, key)
+        found.append(Diagnostic(CODE, message, place, help=(help_,) if help_ else ()))
     return bool(message)
 
 
-def _mounted(head: ScansModel, profile: Profile, span: Span) -> Pose | Diagnostic:
+def _place(source: Source, start: int, text: str, key: str) -> Span:
+    """The key of a line, in its file."""
+    root, _ = read_yaml(source.file, text)
+    span = root.key_span(key) if root else Span(source.file, 0, 1)
+    return replace(span, start=span.start + start, end=span.end + start)
+
+
+def _mounted(head: ScansModel, profile: Profile, place: Callable[[str], Span]) -> Pose | Diagnostic:
     """The lidar's pose on the base, or why its scans are none of the floor plan."""
-    if head.range_min_m >= head.range_max_m or head.angle_increment_rad == 0.0:
-        return Diagnostic(CODE, "the rays of the recording have no range or no direction", span)
+    if head.range_min_m >= head.range_max_m:
+        return Diagnostic(CODE, "the rays of the recording have no range", place("range_min_m"))
+    if head.angle_increment_rad == 0.0:
+        return Diagnostic(CODE, "the rays of the recording have one direction", place("angle_increment_rad"))
     lidars = profile.calibration.lidars
     lidar = next((one for one in lidars if one.name == head.lidar), None)
     if lidar is None:
         near = did_you_mean(head.lidar, [one.name for one in lidars])
         known = ", ".join(f"`{one.name}`" for one in lidars) or "none"
         help_ = f"did you mean `{near[0]}`?" if near else f"the lidars of the profile are: {known}"
-        return Diagnostic(CODE, f"the profile has no lidar `{head.lidar}`", span, help=(help_,))
+        return Diagnostic(CODE, f"the profile has no lidar `{head.lidar}`", place("lidar"), help=(help_,))
     T_base_lidar = _on_base(profile, lidar)
     if T_base_lidar is None:
         message = f"`{lidar.frame}`, the frame of the lidar `{lidar.name}`, is not fixed to the base"

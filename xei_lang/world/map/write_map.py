@@ -42,7 +42,7 @@ def profile_lines(frame: str, folder: str, name: str, sha256: str, measured_on: 
         f"  frame: {frame}\n"
         f"  yaml: {below}{name}.yaml\n"
         f"  image: {below}{name}.pgm\n"
-        f"  sha256: {sha256}\n"
+        f'  sha256: "{sha256}"\n'
         "  status: measured\n"
         f'  measured_on: "{measured_on}"\n'
     )
