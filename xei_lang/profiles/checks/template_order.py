@@ -37,9 +37,10 @@ class _Walk:
 
     def faults(self) -> Iterator[Diagnostic]:
         for line in self.skill.template:
-            arm = str(line.field("tool") or line.field("arm") or "")
-            yield from self.fault(line, arm, str(line.field("object") or ""))
-            self.follow(line, arm, str(line.field("object") or ""))
+            arm, thing = str(line.field("tool") or line.field("arm") or ""), str(line.field("object") or "")
+            if arm and (thing or line.kind not in ("attach", "detach")):
+                yield from self.fault(line, arm, thing)
+                self.follow(line, arm, thing)
 
     def fault(self, line: TemplateStep, arm: str, thing: str) -> Iterator[Diagnostic]:
         """What the lines before this one leave it without."""
