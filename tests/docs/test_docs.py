@@ -43,6 +43,7 @@ _NAME = re.compile(r"^protocol (\w+)", re.MULTILINE)
 _STATED = re.compile(r"# (protocols/\S+)$", re.MULTILINE)
 _WHOLE = re.compile(r"^(xei \d|import|protocol|procedure)\b", re.MULTILINE)
 _COMMAND = re.compile(r"^(\.venv/bin/)?xei\s")
+_BLOCKER = re.compile(r", blocks .*\[XEI\d{4}\]$", re.MULTILINE)
 _NUMBER = re.compile(r"\d+(\.\d+)?")
 _MEASURED = ("motion ", "verify ", "bundle ", "dry-run: ")
 
@@ -153,7 +154,8 @@ def _written(body: str, project: Path) -> str:
 
 
 def _call(arguments: list[str], project: Path, cache: Path) -> str:
-    """Run xei; what it says on either stream. The exit code must fit whether it speaks of errors.
+    """Run xei; what it says on either stream. The exit code must fit whether it speaks of errors, or of what
+    blocks a deployment.
 
     What goes to `> FILE` is not said.
     """
@@ -181,7 +183,10 @@ def _call(arguments: list[str], project: Path, cache: Path) -> str:
         check=False,
     )
     assert done.returncode != 70, done.stdout
-    assert (done.returncode != 0) == ("error[" in done.stdout), (
+    stands = "error[" in done.stdout or (
+        arguments[0] == "doctor" and _BLOCKER.search(done.stdout) is not None
+    )
+    assert (done.returncode != 0) == stands, (
         f"xei {shlex.join(arguments)} ended with {done.returncode}:\n{done.stdout}"
     )
     return done.stdout
