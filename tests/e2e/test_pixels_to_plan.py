@@ -10,11 +10,15 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from tests.cli.xei import ROOT, xei
+from tests.cli.xei import ROOT
 from tests.world.perception.serving import process
 from tests.world.perception.tagged_lab import tagged_lab
+from xei_lang.diagnostics import Source, has_errors
 from xei_lang.ir.geometry import Pose
+from xei_lang.ir.goals import Detach
 from xei_lang.ir.world import World
+from xei_lang.pipeline import ALL, Request, compile_request
+from xei_lang.profiles.grid import T_object_standing
 from xei_lang.profiles.model import Profile
 from xei_lang.world.ground import ground
 from xei_lang.world.perception.client import PoseClient
@@ -99,5 +103,34 @@ def test_the_world_is_grounded_from_pixels_with_its_provenance(
         assert math.hypot(*apart.position_m) < 2.0 * TOLERANCE_M, name
 
 
-def test_a_protocol_compiles_with_that_world(lab: Profile, seen: Seen, tmp_path: Path) -> None:
-    _ = (lab, seen, tmp_path, xei)
+PROTOCOL = """protocol moved {
+  profile "openarm_bench"
+  pick(object=tube_1)
+  insert(object=tube_1, into=rack_2.slot("A1"))
+}
+"""
+
+
+def test_a_protocol_compiles_with_that_world_and_puts_the_tube_where_the_rack_was_seen(
+    lab: Profile, truth: World, seen: Seen
+) -> None:
+    source = Source("moved.xei", PROTOCOL)
+    request = Request(source, profile_folder=Path(lab.folder), observed=(seen.observations,))
+    made = compile_request(request, ALL)
+    assert not has_errors(made.diagnostics), made.diagnostics
+    assert made.made.verified is not None
+    world, graph = made.made.world, made.made.graph
+    assert world is not None and graph is not None
+    assert world.sources[-1] == seen.observations.source
+    (left,) = (goal.action for goal in graph.goals if isinstance(goal.action, Detach))
+    rack = lab.object("rack_2")
+    assert rack is not None
+    T_rack_tube = T_object_standing(rack, "slot", "A1")
+    assert T_rack_tube is not None
+    apart = (
+        (truth.T_world_object("rack_2") @ T_rack_tube).inverse()
+        @ world.robot.T_world_base
+        @ left.T_base_object
+    )
+    # A millimetre of chamfer and half a millimetre of gap lead the tube in.
+    assert math.hypot(*apart.position_m[:2]) < 0.0015

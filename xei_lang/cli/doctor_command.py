@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 
 import click
 
 from xei_lang.cli.exit_codes import INPUT_HAS_ERRORS
-from xei_lang.cli.lab import profile_folder
+from xei_lang.cli.lab import optional, profile_folder
 from xei_lang.cli.options import wants_color
 from xei_lang.cli.report import exit_code, show, with_quoted
 from xei_lang.diagnostics import Diagnostic, Diagnostics, has_errors
@@ -15,16 +16,27 @@ from xei_lang.doctor import Blocker, deployment_blockers
 from xei_lang.doctor.faults import fault_blockers
 from xei_lang.profiles.compiled import default_cache
 from xei_lang.profiles.load import load_profile
+from xei_lang.profiles.model import Profile
 
 
 @click.command("doctor")
 @click.option(
     "--profile", metavar="NAME|FOLDER", help="The profile to look at; needed where there are several."
 )
+@click.option("--pose-service", metavar="URL", help="Ask this pose service whether it serves this profile.")
+@click.option("--token-file", type=click.Path(path_type=Path), help="A file with the token that it asks for.")
 @click.option("--format", "form", type=click.Choice(["text", "json"]), default="text", show_default=True)
 @click.option("--quiet", is_flag=True, help="Print nothing but errors; the exit code tells.")
 @click.option("--color", type=click.Choice(["auto", "always", "never"]), default="auto", show_default=True)
-def command(*, profile: str | None, form: str, quiet: bool, color: str) -> None:
+def command(
+    *,
+    profile: str | None,
+    pose_service: str | None,
+    token_file: Path | None,
+    form: str,
+    quiet: bool,
+    color: str,
+) -> None:
     """Say what blocks a real deployment, by representation, and how to mend each.
 
     Exit code 0 where nothing does, else 1.
@@ -39,9 +51,24 @@ def command(*, profile: str | None, form: str, quiet: bool, color: str) -> None:
     if loaded is None and not (form == "json" and has_errors(said)):
         show(said, {}, wants_color(color))
     blockers = fault_blockers(said) if loaded is None else deployment_blockers(loaded)
+    if loaded is not None and pose_service is not None:
+        blockers += _of_service(loaded, pose_service, token_file, colored=wants_color(color))
     if not quiet:
         click.echo(_rendered(form, folder.name, blockers), nl=False)
     sys.exit(INPUT_HAS_ERRORS if blockers or loaded is None else 0)
+
+
+def _of_service(profile: Profile, url: str, token_file: Path | None, *, colored: bool) -> tuple[Blocker, ...]:
+    optional("xei_lang.world.perception.client", colored)
+    from xei_lang.cli.pose_service import read_token
+    from xei_lang.doctor.pose_service import pose_service_blockers
+    from xei_lang.world.perception.client import Limits, PoseClient
+
+    token, said = read_token(token_file)
+    if said:
+        show(said, {}, colored)
+        sys.exit(exit_code(said))
+    return pose_service_blockers(profile, PoseClient(url, token, Limits(call_s=5.0)))
 
 
 def _rendered(form: str, name: str, blockers: tuple[Blocker, ...]) -> str:

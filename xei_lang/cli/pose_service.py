@@ -22,7 +22,7 @@ def read_token(path: Path | None) -> tuple[str | None, Diagnostics]:
     source, problems = read_source(path, str(path))
     if source is None:
         return None, problems
-    from xei_lang.world.perception.service.assemble import token_of
+    from xei_lang.world.perception.token_file import token_of
 
     token = token_of(source.text)
     return (None, (token,)) if isinstance(token, Diagnostic) else (token, ())

@@ -1,4 +1,4 @@
-"""Pose services to ask in tests: real ones in a thread or a process, and ones that misbehave; over sockets."""
+"""Pose services to ask in tests: real ones in a thread or a process, and ones that misbehave."""
 
 from __future__ import annotations
 

@@ -14,12 +14,15 @@ from numpy.typing import NDArray
 
 from xei_lang.ir.geometry import Pose, Primitive, Vec3
 from xei_lang.world.perception.optics import Array, Optics, matrix_of
+from xei_lang.world.perception.outline import SIDES, outline_sides
 from xei_lang.world.perception.pose_request import ObjectPose, Picture
 from xei_lang.world.perception.service_fault import PoseRefused, RefusalReason
 from xei_lang.world.perception.silhouette import Silhouette, half_size, silhouette
 from xei_lang.world.sources.rigid import pose_of_matrix
 
 Bounds = tuple[Vec3, Vec3]
+Mask = NDArray[np.bool_]
+_ELSEWHERE = "look from somewhere else, or move what stands before it"
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,13 +30,17 @@ class Criteria:
     """What a pose must meet.
 
     `residual_m` is how far a measured depth may be from the expected one to count as the object's; at least
-    `agreeing` of the pixels at which something else does not stand before it must. `visible` of its
-    silhouette, and `pixels` pixels, must be free of other things and measured. `overlap` is the least
-    intersection over union with a mask.
+    `agreeing` of the pixels at which something else does not stand before it must, and `side_agreeing` of
+    those on each side of its outline, `outline_m` wide. `visible` of its silhouette and `pixels` pixels must
+    be free of other things and measured, and so must `sides` sides. `overlap` is the least intersection over
+    union with a mask.
     """
 
     residual_m: float = 0.008
     agreeing: float = 0.7
+    outline_m: float = 0.01
+    side_agreeing: float = 0.5
+    sides: int = 3
     visible: float = 0.1
     pixels: int = 40
     overlap: float = 0.5
@@ -119,7 +126,7 @@ def _borne_out(
     if free.sum() * each < criteria.pixels or free.sum() < criteria.visible * len(free):
         shown = f"{int(free.sum()) * each} of {len(free) * each} pixels"
         words = f"cannot be held against the picture, which shows {shown} of it"
-        return _refused(item, "hidden", words, "look from somewhere else, or move what stands before it")
+        return _refused(item, "hidden", words, _ELSEWHERE)
     agreeing = float(fits.sum() / free.sum())
     if agreeing < criteria.agreeing:
         off = float(np.median(np.abs(behind[free])))
@@ -129,11 +136,39 @@ def _borne_out(
             "more"
         )
         return _refused(item, "depth_residual", words, "look at the picture: something else may stand there")
+    doubt = _side_doubt(seen, free, fits, evidence, criteria)
+    if doubt is not None:
+        return _refused(item, *doubt)
     overlap = None if evidence.mask is None else _overlap(seen, free, evidence.mask)
     if overlap is not None and overlap < criteria.overlap:
         words = f"covers its mask by {100 * overlap:.0f} %, and {100 * criteria.overlap:.0f} % are needed"
         return _refused(item, "mask_overlap", words, "look at the mask: it may be of something else")
     return Accepted(item.name, pose, agreeing, float(np.median(np.abs(behind[fits]))), overlap)
+
+
+def _side_doubt(
+    seen: Silhouette, free: Mask, fits: Mask, evidence: Evidence, criteria: Criteria
+) -> tuple[RefusalReason, str, str] | None:
+    """What speaks against a pose on one side of its outline, or that too few sides can be seen."""
+    width_px = criteria.outline_m * float(evidence.optics.matrix[0, 0]) / float(np.median(seen.depths_m))
+    height, width = evidence.depth_m.shape
+    sides = outline_sides(seen, width_px, (height, width))
+    shares: list[float] = []
+    for side in range(SIDES):
+        on = sides == side
+        open_ = int((on & free).sum())
+        if open_ * seen.step**2 >= criteria.pixels / SIDES and open_ >= 0.5 * int(on.sum()):
+            shares.append(float((on & fits).sum()) / open_)
+    if len(shares) < criteria.sides:
+        words = f"cannot be held against the picture, which shows {len(shares)} of {SIDES} sides of it"
+        return "hidden", words, _ELSEWHERE
+    if min(shares) < criteria.side_agreeing:
+        words = (
+            f"reaches past what the depth image shows: {100 * min(shares):.0f} % of one side of its outline "
+            f"is measured where it would be, and {100 * criteria.side_agreeing:.0f} % are needed"
+        )
+        return "depth_residual", words, "look at the picture: it may stand a little beside that"
+    return None
 
 
 def _overlap(seen: Silhouette, free: NDArray[np.bool_], mask: NDArray[np.bool_]) -> float:

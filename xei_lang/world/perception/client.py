@@ -28,7 +28,6 @@ from xei_lang.world.perception.service_fault import ServiceFault
 from xei_lang.world.perception.wire import put_json, registered_of, request_json, response_of
 
 _Model = TypeVar("_Model", bound=BaseModel)
-_CHUNK = 65536
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,7 +129,9 @@ class PoseClient:
         headers = {"Accept": "application/json", "Accept-Encoding": "identity"}
         if self.token is not None:
             headers["Authorization"] = f"Bearer {self.token}"
-        return httpx.Client(headers=headers, trust_env=False, follow_redirects=False)
+        # Each try has a connection of its own: one that the service is about to close looks like a fault.
+        fresh = httpx.Limits(max_keepalive_connections=0)
+        return httpx.Client(headers=headers, trust_env=False, follow_redirects=False, limits=fresh)
 
     def _try(
         self, session: httpx.Client, method: str, path: str, body: bytes | None, ends: float
@@ -165,7 +166,7 @@ class PoseClient:
         size = int(stated) if stated.isascii() and stated.isdigit() else 0
         if size <= bound:
             size = 0
-            for part in answer.iter_raw(_CHUNK):
+            for part in answer.iter_raw():
                 size += len(part)
                 parts.append(part)
                 if size > bound:
