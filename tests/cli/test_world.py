@@ -103,6 +103,12 @@ def test_a_source_that_cannot_be_used_is_not_replaced_by_another(lab: Path, worl
     assert f"error[{said}]" in ran.err
 
 
+def test_a_picture_is_for_a_pose_service(lab: Path):
+    ran = compile_(lab, "monday.yaml", "--picture", "picture.json")
+    assert ran.code == 1
+    assert "`--picture` is for a pose service, and `--world` names `monday.yaml`" in ran.err
+
+
 def test_what_is_not_in_the_scene_keeps_its_prior(lab: Path):
     ran = compile_(lab, "monday.yaml")
     assert ran.code == 0, ran.err

@@ -9,7 +9,7 @@ import click
 
 from xei_lang.cli.emit import EMITTED, passes_for, text_after, text_of, write_all
 from xei_lang.cli.handoff_lines import SHOWN, handoff_line
-from xei_lang.cli.options import Options, compiling, world_option
+from xei_lang.cli.options import Options, WorldOptions, compiling, grounding
 from xei_lang.cli.session import Session, open_session
 from xei_lang.cli.write_file import write_text
 from xei_lang.pipeline import ALL, Handoffs, PassResult
@@ -33,7 +33,7 @@ from xei_lang.pipeline import ALL, Handoffs, PassResult
 @click.option("--time-passes", is_flag=True, help="Print the seconds that each pass took to standard error.")
 @click.option("--allow-unmapped", is_flag=True, help="Compile although something asked for cannot be done.")
 @click.option("--strict", is_flag=True, help="Refuse a profile whose placeholders block a real deployment.")
-@world_option
+@grounding
 @compiling
 def command(
     *,
@@ -44,7 +44,7 @@ def command(
     time_passes: bool,
     allow_unmapped: bool,
     strict: bool,
-    world: str,
+    world: WorldOptions,
     options: Options,
 ) -> None:  # fmt: skip
     """Compile a protocol to a bundle of timed, verified motion.

@@ -74,11 +74,42 @@ _SHARED = (
 )  # fmt: skip
 
 
-world_option = click.option(
-    "--world", metavar="SOURCE", default=PROFILE_WORLD, show_default=True,
-    help="Who says where things are: `profile`, or a scene file, which overrides it.",
+@dataclass(frozen=True, slots=True)
+class WorldOptions:
+    """Who is asked where things are: `source` as `--world` names it; for a pose service the picture that it
+    looks at, and the file with its token.
+    """
+
+    source: str
+    picture: Path | None
+    token_file: Path | None
+
+
+def grounding(command: Callable[..., None]) -> Callable[..., None]:
+    """Give a command the options of those that ground the world; it receives them as one, `world`."""
+
+    @functools.wraps(command)
+    def with_world(world: str, picture: Path | None, token_file: Path | None, **others: Any) -> None:
+        command(world=WorldOptions(world, picture, token_file), **others)
+
+    wrapped: Callable[..., None] = with_world
+    for option in _OF_THE_WORLD:
+        wrapped = option(wrapped)
+    return wrapped
+
+
+_OF_THE_WORLD = (
+    click.option(
+        "--token-file", type=click.Path(path_type=Path), help="A file with the token of the pose service."
+    ),
+    click.option(
+        "--picture", type=click.Path(path_type=Path), help="What a pose service is asked: a `pose_request`."
+    ),
+    click.option(
+        "--world", metavar="SOURCE", default=PROFILE_WORLD, show_default=True,
+        help="Who says where things are: `profile`, or over it a scene file or a pose service (http://...).",
+    ),
 )  # fmt: skip
-"""For commands that ground the world; they receive it as `world`."""
 
 
 def _pairs(option: str, values: tuple[str, ...]) -> Pairs:

@@ -10,7 +10,7 @@ import click
 from xei_lang.cli.lab import open_lab, optional
 from xei_lang.cli.options import PROFILE_WORLD, wants_color
 from xei_lang.cli.report import exit_code, show
-from xei_lang.cli.worlds import observed_by
+from xei_lang.cli.worlds import observed_in
 from xei_lang.diagnostics import Diagnostic, Diagnostics, has_errors
 from xei_lang.profiles.model import Camera, Profile
 
@@ -103,7 +103,7 @@ def serve(
     from xei_lang.world.ground import ground
 
     token, said = read_token(token_file)
-    seen, problems = observed_by(named, lab)
+    seen, problems = observed_in(named, lab)
     said = (*said, *problems)
     world = None
     if not has_errors(said):

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, TextIO
 import click
 
 from xei_lang.cli.exit_codes import RUN_STOPPED, WRONG_USAGE
-from xei_lang.cli.options import Options, compiling, world_option
+from xei_lang.cli.options import Options, WorldOptions, compiling, grounding
 from xei_lang.cli.session import Session, open_session
 from xei_lang.diagnostics import Diagnostic, Diagnostics
 from xei_lang.ir.trace import TraceEvent
@@ -46,7 +46,7 @@ if TYPE_CHECKING:
     show_default=True,
     help="Fraction of the planned speed.",
 )
-@world_option
+@grounding
 @compiling
 def command(
     *,
@@ -55,7 +55,7 @@ def command(
     trace_path: Path | None,
     answers_path: Path | None,
     speed: float,
-    world: str,
+    world: WorldOptions,
     options: Options,
 ) -> None:  # fmt: skip
     """Execute a protocol, write its trace, and stop on the first failure.

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from xei_lang.cli.exit_codes import INPUT_HAS_ERRORS
-from xei_lang.cli.options import PROFILE_WORLD, Options
+from xei_lang.cli.options import PROFILE_WORLD, Options, WorldOptions
 from xei_lang.cli.progress import Bar
 from xei_lang.cli.report import exit_code, show
 from xei_lang.diagnostics import Diagnostics, Source, Sources
@@ -55,16 +55,18 @@ class Session:
             sys.exit(exit_code(outcome.diagnostics) or INPUT_HAS_ERRORS)
         return outcome.made
 
-    def grounded_by(self, world: str) -> Session:
+    def grounded_by(self, world: WorldOptions) -> Session:
         """The same, with what the source that `--world` names says of the world. Where the protocol's profile
         cannot be had, the passes will tell; exits where the source cannot be believed.
         """
-        if world == PROFILE_WORLD:
+        if world.source == PROFILE_WORLD and world.picture is None:
             return self
         from xei_lang.cli.worlds import observed_by
 
         profile = compile_request(self.request, FRONT[:2]).made.profile
-        observed, said = observed_by(world, profile) if profile is not None else ((), ())
+        if profile is None:
+            return self
+        observed, said = observed_by(world, profile, self.options.color)
         code = self.show(said)
         if code:
             sys.exit(code)

@@ -9,7 +9,7 @@ import click
 
 from xei_lang.cli.exit_codes import INPUT_HAS_ERRORS
 from xei_lang.cli.lab import open_lab
-from xei_lang.cli.options import wants_color, world_option
+from xei_lang.cli.options import WorldOptions, grounding, wants_color
 from xei_lang.cli.report import exit_code, show
 from xei_lang.cli.worlds import observed_by
 from xei_lang.cli.write_file import write_text
@@ -38,7 +38,7 @@ def command() -> None:
 
 @command.command("show")
 @_profile_option
-@world_option
+@grounding
 @click.option(
     "--format",
     "form",
@@ -51,7 +51,7 @@ def command() -> None:
 @_quiet_option
 @_color_option
 def show_world(
-    *, profile: str | None, world: str, form: str, output: Path | None, quiet: bool, color: str
+    *, profile: str | None, world: WorldOptions, form: str, output: Path | None, quiet: bool, color: str
 ) -> None:
     """Print all objects: where they are, who said so, and which arms may reach them from which station.
 
@@ -74,10 +74,10 @@ def show_world(
 @command.command("where")
 @click.argument("name")
 @_profile_option
-@world_option
+@grounding
 @_quiet_option
 @_color_option
-def where(*, name: str, profile: str | None, world: str, quiet: bool, color: str) -> None:
+def where(*, name: str, profile: str | None, world: WorldOptions, quiet: bool, color: str) -> None:
     """Print where an object is, who said so field by field, and how well that is known.
 
     NAME is the name of an object, or one of its aliases.
@@ -99,11 +99,11 @@ def where(*, name: str, profile: str | None, world: str, quiet: bool, color: str
     click.echo(to_text(_ground(lab, world, quiet=quiet, colored=colored), lab, item), nl=False)
 
 
-def _ground(profile: Profile, named: str, *, quiet: bool, colored: bool) -> World:
+def _ground(profile: Profile, asked: WorldOptions, *, quiet: bool, colored: bool) -> World:
     """The world that a source and the profile give. Exits, with diagnostics, where they contradict."""
     from xei_lang.world.ground import ground
 
-    observed, said = observed_by(named, profile)
+    observed, said = observed_by(asked, profile, colored)
     world = None
     if not has_errors(said):
         world, found = ground(profile, observed)

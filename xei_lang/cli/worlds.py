@@ -1,25 +1,42 @@
-"""What `--world` names, as a source of the world that can be asked."""
+"""What `--world` names, as a source of the world that is asked."""
 
 from __future__ import annotations
 
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from xei_lang.cli.options import PROFILE_WORLD
+from xei_lang.cli.lab import optional
+from xei_lang.cli.options import PROFILE_WORLD, WorldOptions
 from xei_lang.diagnostics import Diagnostic, Diagnostics
 from xei_lang.syntax.reading import read_source
 
 if TYPE_CHECKING:
     from xei_lang.profiles.model import Profile
+    from xei_lang.world.perception.pose_request import PoseRequest
     from xei_lang.world.sources import Observations
 
 
-def observed_by(named: str, profile: Profile) -> tuple[tuple[Observations, ...], Diagnostics]:
-    """What the source that `--world` names says of a profile's objects; with errors, nothing to be used."""
+def observed_by(
+    asked: WorldOptions, profile: Profile, color: bool
+) -> tuple[tuple[Observations, ...], Diagnostics]:
+    """What the source that `--world` names says of a profile's objects; with errors, nothing to be used.
+
+    Exits where a pose service is to be asked and the libraries for that are not installed.
+    """
+    service = asked.source.startswith(("http://", "https://"))
+    if asked.picture is not None and not service:
+        note = f"`--picture` is for a pose service, and `--world` names `{asked.source}`"
+        return (), (_no_source(asked.source, note),)
+    return _seen_by_service(asked, profile, color) if service else observed_in(asked.source, profile)
+
+
+def observed_in(named: str, profile: Profile) -> tuple[tuple[Observations, ...], Diagnostics]:
+    """What a scene file says of a profile's objects, by its path; `profile` stands for no file at all."""
     if named == PROFILE_WORLD:
         return (), ()
     if "://" in named:
-        return (), (_no_source(named),)
+        note = "known are `profile`, the path of a scene file, and the address of a pose service"
+        return (), (_no_source(named, note),)
     from xei_lang.world.sources.scene_file import SceneFileSource
 
     text, problems = read_source(Path(named), named)
@@ -29,17 +46,58 @@ def observed_by(named: str, profile: Profile) -> tuple[tuple[Observations, ...],
     return (() if seen is None else (seen,)), said
 
 
-def _no_source(named: str) -> Diagnostic:
-    """A pose service finds objects in a picture, and no camera can be asked for one yet."""
-    service = named.startswith(("http://", "https://"))
-    note = (
-        "a pose service finds objects in a picture of the bench, and no camera can be asked for one yet"
-        if service
-        else "known are `profile` and the path of a scene file"
+def _seen_by_service(
+    asked: WorldOptions, profile: Profile, color: bool
+) -> tuple[tuple[Observations, ...], Diagnostics]:
+    """What a pose service finds in a recorded picture, which is taken to be of now, as a scene file is."""
+    url = asked.source
+    if asked.picture is None:
+        note = "a pose service finds objects in a picture, and there is no `--picture`"
+        return (), (_no_source(url, note),)
+    optional("xei_lang.world.perception.observe", color)
+    request, problems = _read_request(asked.picture, url)
+    if request is None:
+        return (), problems
+    from xei_lang.cli.pose_service import read_token
+    from xei_lang.world.perception.client import PoseClient
+    from xei_lang.world.perception.observe import observe
+    from xei_lang.world.perception.service_fault import ServiceFault
+
+    token, problems = read_token(asked.token_file)
+    if problems:
+        return (), problems
+    now_ns = request.picture.stamp_ns
+    found = observe(PoseClient(url.rstrip("/"), token), profile, request, now_ns=now_ns)
+    if isinstance(found, ServiceFault):
+        return (), (found.diagnostic(),)
+    return (found.observations,), found.diagnostics
+
+
+def _read_request(picture: Path, url: str) -> tuple[PoseRequest | None, Diagnostics]:
+    """A request of the form `pose_request`, from its file."""
+    from pydantic import ValidationError
+
+    from xei_lang.world.perception.contract import PoseRequestModel
+    from xei_lang.world.perception.wire import request_of
+
+    text, problems = read_source(picture, str(picture))
+    if text is None:
+        return None, problems
+    try:
+        request = request_of(PoseRequestModel.model_validate_json(text.text))
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        place = ".".join(str(step) for step in first["loc"])
+        request = f"{place}: {first['msg'].lower()}" if place else first["msg"]
+    if isinstance(request, str):
+        note = f"`{picture}` is not of the form `pose_request`: {request}"
+        return None, (_no_source(url, note),)
+    return request, ()
+
+
+def _no_source(named: str, note: str) -> Diagnostic:
+    help_ = (
+        "record what was seen as a scene file (`xei schema scene_file`), or a picture for a pose service: "
+        "`--picture FILE` (`xei schema pose_request`)"
     )
-    return Diagnostic(
-        "XEI0663",
-        f"`{named}` cannot be asked where things are",
-        notes=(note,),
-        help=("record what was seen as a scene file: `xei schema scene_file` prints its form",),
-    )
+    return Diagnostic("XEI0663", f"`{named}` cannot be asked where things are", notes=(note,), help=(help_,))
