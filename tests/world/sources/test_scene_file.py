@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from pathlib import Path
 
 import jsonschema
@@ -14,7 +15,7 @@ from hypothesis import strategies as st
 
 from tests.world.bench import bench, world
 from tests.world.sources.scenes import at, free, grounded, read, scene, seen
-from xei_lang.diagnostics import Source
+from xei_lang.diagnostics import Source, has_errors
 from xei_lang.diagnostics.render.full import render_full
 from xei_lang.ir.geometry import Pose
 from xei_lang.ir.world import World
@@ -131,3 +132,37 @@ def test_a_rigid_motion_of_the_table_moves_all_that_is_on_it(dx, dy, dz, yaw):
         actual = after.T_world_object(name)
         assert actual.position_m == pytest.approx(expected.position_m, abs=1e-9)
         assert abs((expected.inverse() @ actual).quaternion[3]) == pytest.approx(1.0, abs=1e-12)
+
+
+PIECES = [
+    "null", "-1", "1e999", "1e400 m", "0 mm", "200 m", "[]", "{}", "true", '""', "'a b'", ".inf", "[1, 2, 3]",
+    "&a 1", "*a", "!!float 1", "9" * 400, "0.1 m", "table", "world", "rack_1", "tube_1", "\x00", "é",
+]  # fmt: skip
+
+
+SOUND = """rack_1: {frame: table, position: [0.12 m, -0.135 m, 0 m], rpy: [0 deg, 0 deg, -90 deg], confidence: 1}
+tube_1: {frame: world, position: [0.56 m, -0.045 m, 0.755 m], quaternion: [0, 0, 0, 1], confidence: 1}
+wipe_1: {frame: table, matrix: [[1, 0, 0, 0.08], [0, 1, 0, 0.44], [0, 0, 1, 0], [0, 0, 0, 1]], confidence: 1}
+tube_2: {states: {cap: open}, size: [17 mm, 17 mm, 118 mm], stamp: 2026-11-02T10:15:00Z}
+beaker_1: {absent: true}"""
+
+
+@given(st.data())
+@settings(max_examples=150, deadline=None)
+def test_no_scene_file_is_too_broken_for_a_diagnostic(data):
+    """Values of a sound file exchanged for others, characters dropped: a world, or errors, never a bug."""
+    words = scene_words()
+    for _ in range(data.draw(st.integers(1, 4))):
+        index = data.draw(st.integers(0, len(words) - 1))
+        words[index] = data.draw(st.sampled_from([*PIECES, words[index][1:], words[index] + words[index]]))
+    observed, said = read("".join(words))
+    if observed is None:
+        assert has_errors(said)
+        return
+    found, said = ground(bench(), (observed,))
+    assert (found is None) == has_errors(said)
+
+
+def scene_words() -> list[str]:
+    text = scene(SOUND)
+    return re.findall(r"[\w.\-]+(?: mm| m| deg)?|\W", text)
