@@ -88,7 +88,7 @@ def test_files_of_another_map_are_told_with_their_hash(lab: Path) -> None:
         (("drive.jsonl",), 2, "--output"),
         (("drive.jsonl", "-o", "out", "--resolution", "0"), 2, "--resolution"),
         (("drive.jsonl", "-o", "out", "--name", "../lab"), 2, "without folders"),
-        (("profiles", "-o", "out"), 2, "is no file"),
+        (("profiles", "-o", "out"), 1, "rosbag2"),
         (("bad.jsonl", "-o", "out"), 1, "XEI0667"),
         (("binary.jsonl", "-o", "out"), 1, "UTF-8"),
         (("drive.jsonl", "-o", "drive.jsonl"), 2, "cannot be written"),

@@ -61,7 +61,8 @@ def build(
     """Build a map from recorded lidar scans and the poses that they were taken at.
 
     Writes a map of ROS map_server (YAML and PGM), and prints the lines of `calibration_profile.yaml` that
-    name it. A line of the recording has the form of `xei schema scans`.
+    name it. A line of the recording has the form of `xei schema scans`; a folder is read as a rosbag2 with
+    the lidar's scans and tf.
 
     Example: xei map build drive.jsonl -o profiles/openarm_bench/map
     """
@@ -76,8 +77,34 @@ def build(
 def _build(
     path: Path, lab: Profile, output: Path, name: str, resolution_m: float, *, quiet: bool, colored: bool
 ) -> int:
-    from xei_lang.profiles.map_files import read_limited
     from xei_lang.world.map.build_map import build_map
+
+    scans = _bag(path, lab, colored) if path.is_dir() else _lines(path, lab, colored)
+    if isinstance(scans, int):
+        return scans
+    if not quiet:
+        click.echo(f"{len(scans.poses)} scans of `{scans.lidar}`, of {len(scans.angles_rad)} rays", err=True)
+    grid = build_map(scans, resolution_m)
+    if isinstance(grid, Diagnostic):
+        return _show((grid,), colored)
+    if not quiet:
+        from xei_lang.world.map.picture import size_text
+
+        click.echo(size_text(grid), err=True)
+    return _show(_deliver(grid, scans, lab, output, name), colored)
+
+
+def _bag(path: Path, lab: Profile, colored: bool) -> Scans | int:
+    """The scans of a rosbag2, or the exit code after saying why not."""
+    from xei_lang.world.map.bag import read_bag
+
+    found = read_bag(path, lab)
+    return _show((found,), colored) if isinstance(found, Diagnostic) else found
+
+
+def _lines(path: Path, lab: Profile, colored: bool) -> Scans | int:
+    """The scans of a file of JSON Lines, or the exit code after saying why not."""
+    from xei_lang.profiles.map_files import read_limited
     from xei_lang.world.map.recording import read_scans
 
     data = read_limited(path, MAX_RECORDING_BYTES)
@@ -90,16 +117,7 @@ def _build(
     if scans is None:
         show(said, {source.file: source}, colored)
         return exit_code(said)
-    if not quiet:
-        click.echo(f"{len(scans.poses)} scans of `{scans.lidar}`, of {len(scans.angles_rad)} rays", err=True)
-    grid = build_map(scans, resolution_m)
-    if isinstance(grid, Diagnostic):
-        return _show((grid,), colored)
-    if not quiet:
-        from xei_lang.world.map.picture import size_text
-
-        click.echo(size_text(grid), err=True)
-    return _show(_deliver(grid, scans, lab, output, name), colored)
+    return scans
 
 
 def _deliver(grid: OccupancyGrid, scans: Scans, lab: Profile, output: Path, name: str) -> Diagnostics:

@@ -24,6 +24,7 @@ from xei_lang.world.map.footprint import fixed_links
 from xei_lang.world.map.grid import yaw_of
 from xei_lang.world.transforms import lookup
 
+Array = NDArray[np.float64]
 M = TypeVar("M", bound=Model)
 
 CODE = "XEI0667"
@@ -40,9 +41,9 @@ class Scans:
 
     recorded_on: str
     lidar: str
-    poses: NDArray[np.float64]
-    angles_rad: NDArray[np.float64]
-    ranges_m: NDArray[np.float64]
+    poses: Array
+    angles_rad: Array
+    ranges_m: Array
 
 
 def read_scans(source: Source, profile: Profile) -> tuple[Scans | None, Diagnostics]:
@@ -71,18 +72,23 @@ def read_scans(source: Source, profile: Profile) -> tuple[Scans | None, Diagnost
 
 
 def _scans(head: ScansModel, scans: list[ScanModel], T_base_lidar: Pose) -> Scans:
-    dx, dy, _ = T_base_lidar.position_m
     base = np.array([scan.base for scan in scans])
-    c, s = np.cos(base[:, 2]), np.sin(base[:, 2])
-    poses = np.stack(
-        [base[:, 0] + c * dx - s * dy, base[:, 1] + s * dx + c * dy, base[:, 2] + yaw_of(T_base_lidar)],
-        axis=1,
-    )
     ranges = np.array([scan.ranges_m for scan in scans], dtype=np.float64)
     ranges[(ranges < head.range_min_m) | (ranges > head.range_max_m)] = np.nan
     steps = np.arange(ranges.shape[1], dtype=np.float64)
-    angles: NDArray[np.float64] = head.angle_min_rad + head.angle_increment_rad * steps
-    return Scans(head.recorded_on, head.lidar, poses, angles, ranges)
+    angles: Array = head.angle_min_rad + head.angle_increment_rad * steps
+    return scans_at(head.recorded_on, head.lidar, base, T_base_lidar, angles, ranges)
+
+
+def scans_at(
+    recorded_on: str, lidar: str, base: Array, T_base_lidar: Pose, angles_rad: Array, ranges_m: Array
+) -> Scans:
+    """Scans of a lidar on the base, which stood at `base` (n, 3): x, y, yaw in the map's frame, m and rad."""
+    dx, dy, _ = T_base_lidar.position_m
+    x, y, yaw = base.T
+    c, s = np.cos(yaw), np.sin(yaw)
+    poses = np.stack([x + c * dx - s * dy, y + s * dx + c * dy, yaw + yaw_of(T_base_lidar)], axis=1)
+    return Scans(recorded_on, lidar, poses, angles_rad, ranges_m)
 
 
 def _lines(source: Source) -> Iterator[tuple[int, str]]:
@@ -163,6 +169,11 @@ def _mounted(head: ScansModel, profile: Profile, place: Callable[[str], Span]) -
         known = ", ".join(f"`{one.name}`" for one in lidars) or "none"
         help_ = f"did you mean `{near[0]}`?" if near else f"the lidars of the profile are: {known}"
         return Diagnostic(CODE, f"the profile has no lidar `{head.lidar}`", place("lidar"), help=(help_,))
+    return mounted_lidar(profile, lidar)
+
+
+def mounted_lidar(profile: Profile, lidar: Lidar) -> Pose | Diagnostic:
+    """The lidar's pose in `robot_base`, or why its scans are none of the floor plan."""
     T_base_lidar = _on_base(profile, lidar)
     if T_base_lidar is None:
         message = f"`{lidar.frame}`, the frame of the lidar `{lidar.name}`, is not fixed to the base"
