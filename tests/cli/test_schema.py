@@ -15,8 +15,13 @@ from tests.cli.pictures import image_of_the_table
 from tests.cli.xei import PROFILES, xei
 from tests.world.calibration.recorded import recorded
 from tests.world.map.ranging import recorded as recorded_scans
+from tests.world.perception.pictures import lab, small_request, truth
 from xei_lang.cli.schema_command import FORMS, command
 from xei_lang.cli.schema_command import PROFILES as PROFILE_FILES
+from xei_lang.world.perception.contract import PoseRequestModel, PoseResponseModel
+from xei_lang.world.perception.service.handle import Desk
+from xei_lang.world.perception.service.mock import MockBackend
+from xei_lang.world.perception.wire import request_json
 
 PROTOCOL = """protocol small {
   profile "openarm_bench"
@@ -64,6 +69,10 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[Any]]:
     found["scene_file"] = [yaml.safe_load(xei("world", "show", "--format", "scene", cwd=folder).out)]
     found["world"] = [json.loads(xei("world", "show", "--format", "json", cwd=folder).out)]
     found["scans"] = [json.loads(line) for line in recorded_scans(2).splitlines()]
+    asked = request_json(small_request("bottle_1", "table_b"))
+    answered = Desk(lab(), MockBackend(truth())).poses(PoseRequestModel.model_validate(asked))
+    assert isinstance(answered, PoseResponseModel)
+    found |= {"pose_request": [asked], "pose_response": [answered.model_dump(mode="json")]}
     found["doctor"] = [json.loads(xei("doctor", "--format", "json", cwd=folder).out)]
     return {"check": [json.loads(checked.out)], "trace": [json.loads(line) for line in lines], **found}
 
