@@ -19,6 +19,14 @@ CALLS = "".join(f"procedure p{i}() {{ p{i + 1}() p{i + 1}() }}\n" for i in range
         protocol("for i in 1 .. 99999 { let x = 1" + " + 1" * 100 + " } wait 1 s"),
         protocol("p0()") + CALLS + "procedure p38() { wait 1 s }\n",
         protocol("p0()") + CALLS + "procedure p38() { }\n",
+        protocol("let a = [x for x in 1 .. 9000] let b = [a for x in 1 .. 9000] require b == b wait 1 s"),
+        "procedure p(x: List[List[Int]]) { wait 1 s }\n"
+        + protocol("let a = [x for x in 1 .. 9000] let b = [a for x in 1 .. 9000] p(x=b)"),
+        protocol(
+            "let a0 = [1, 1] "
+            + " ".join(f"let a{i + 1} = [a{i}, a{i}]" for i in range(60))
+            + " require a60 == a60"
+        ),
     ],
 )
 def test_work_without_steps_has_a_bound(text: str) -> None:
@@ -52,3 +60,10 @@ def test_among_many_names_one_slip_is_still_guessed(name: str, meant: tuple[str,
 
 def test_endless_names_get_no_guess() -> None:
     assert did_you_mean("a" * 100_000, ["a" * 100_001]) == ()
+
+
+def test_lists_of_any_depth_are_shown() -> None:
+    deep = "let a0 = [1, 1] " + " ".join(f"let a{i + 1} = [a{i}, a{i}]" for i in range(60))
+    _, found = check(protocol(f"{deep} let b = [[1, 2], [3]] wait a60  wait b  wait 1 s"))
+    shown = [item.message.partition(" is")[0] for item in found]
+    assert shown == ["`[[...], [...]]`", "`[[1, 2], [3]]`"]

@@ -49,7 +49,7 @@ class Evaluator:
         self.budget = budget
         self.lists = Lists(reporter, self.value, budget)
         self._names = Names(registry, reporter)
-        self._operators = Operators(reporter, self.value)
+        self._operators = Operators(reporter, self.value, budget)
         self._members = Members(registry, places, Functions(reporter, budget), reporter, self.value)
         self._asked: Asked | None = None
         self.nominal: Nominal | None = None

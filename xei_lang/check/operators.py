@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from xei_lang.check import arithmetic
+from xei_lang.check.budget import Budget
 from xei_lang.check.equality import same
 from xei_lang.check.lists import Evaluate
 from xei_lang.check.names import ANY_WORD
@@ -27,8 +28,9 @@ _THINGS = (Word, ObjectValue, PlaceValue)
 class Operators:
     """Applies operators to what their sides are worth."""
 
-    def __init__(self, reporter: Reporter, evaluate: Evaluate) -> None:
+    def __init__(self, reporter: Reporter, evaluate: Evaluate, budget: Budget) -> None:
         self._reporter = reporter
+        self._budget = budget
         self._evaluate = evaluate
 
     def unary(self, node: Unary, scope: Scope) -> Val:
@@ -120,7 +122,8 @@ class Operators:
             return self._open(node.op, left, right)
         if _is_open(left) or _is_open(right):
             return POISON
-        return same(left, right) == (node.op == "==")
+        answer = same(left, right, lambda count: self._budget.spend(count, node.span))
+        return POISON if self._budget.is_spent else answer == (node.op == "==")
 
     def _numbers(self, node: Binary | Compare, scope: Scope, apply: Callable[[Val, Val], Val]) -> Val:
         left = self._evaluate(node.left, scope)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from xei_lang.check.budget import Budget
 from xei_lang.check.expectation import Expectation
 from xei_lang.check.places import Places
 from xei_lang.check.poses import EXAMPLE
@@ -40,7 +41,8 @@ ANY_ARM = "either"
 class Types:
     """Turns values into what is expected, or reports why they are not; the result is POISON then."""
 
-    def __init__(self, registry: Registry, places: Places, reporter: Reporter) -> None:
+    def __init__(self, registry: Registry, places: Places, reporter: Reporter, budget: Budget) -> None:
+        self._budget = budget
         self._registry = registry
         self._places = places
         self._reporter = reporter
@@ -82,6 +84,8 @@ class Types:
     def _list(self, value: Val, expected: Expectation, node: Expression, state: State) -> Val:
         if not isinstance(value, ListValue):
             return self._wrong(value, expected, node)
+        if not self._budget.spend(len(value.items), node.span):
+            return POISON
         written = node.items if isinstance(node, (ListLit, TupleLit)) else ()
         nodes = written if len(written) == len(value.items) else (node,) * len(value.items)
         pairs = zip(value.items, nodes, strict=True)

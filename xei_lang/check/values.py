@@ -163,12 +163,12 @@ def show(value: Val) -> str:  # noqa: PLR0911, PLR0912 one return for each kind 
         case PoseIn():
             return written_pose(value)
         case RecordValue():
-            shown = [f"{name}: {show(cell)}" for name, cell in list(value.fields.items())[:3]]
+            shown = [f"{name}: {_part(cell)}" for name, cell in list(value.fields.items())[:3]]
             return f"({', '.join(shown)}{', ...' if len(value.fields) > 3 else ''})"
         case TableValue():
-            return f"[{show(value.items[0])}, ...]" if value.items else "[]"
+            return f"[{_part(value.items[0])}, ...]" if value.items else "[]"
         case ListValue():
-            shown = [show(item) for item in value.items[:3]]
+            shown = [_part(item) for item in value.items[:3]]
             return f"[{', '.join(shown)}{', ...' if len(value.items) > 3 else ''}]"
         case Interval():
             return f"{show(value.lower)} .. {show(value.upper)}"
@@ -178,6 +178,12 @@ def show(value: Val) -> str:  # noqa: PLR0911, PLR0912 one return for each kind 
             return "?"
         case Quantity():
             return str(value)
+
+
+def _part(value: Val) -> str:
+    """A member as its list is shown: of lists in lists, which can be of any depth, only that they are."""
+    parts = value.items[:3] if isinstance(value, ListValue) else ()
+    return "[...]" if any(isinstance(part, (ListValue, RecordValue)) for part in parts) else show(value)
 
 
 def kind(value: Val) -> str:  # noqa: PLR0911, PLR0912 one return for each kind of value
