@@ -140,7 +140,7 @@ PIECES = [
 ]  # fmt: skip
 
 
-SOUND = """rack_1: {frame: table, position: [0.12 m, -0.135 m, 0 m], rpy: [0 deg, 0 deg, -90 deg], confidence: 1}
+SOUND = """rack_1: {frame: table, position: [120 mm, -135 mm, 0 m], rpy: [0 rad, 0 rad, 0 rad], confidence: 1}
 tube_1: {frame: world, position: [0.56 m, -0.045 m, 0.755 m], quaternion: [0, 0, 0, 1], confidence: 1}
 wipe_1: {frame: table, matrix: [[1, 0, 0, 0.08], [0, 1, 0, 0.44], [0, 0, 1, 0], [0, 0, 0, 1]], confidence: 1}
 tube_2: {states: {cap: open}, size: [17 mm, 17 mm, 118 mm], stamp: 2026-11-02T10:15:00Z}

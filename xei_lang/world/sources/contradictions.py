@@ -108,11 +108,11 @@ def _overlaps(known: tuple[Known, ...]) -> Iterator[tuple[Known, Known, float]]:
     """
     known = tuple(sorted(known, key=lambda one: (bool(one.standing.carried_by), one.name)))
     bodies = [(one, solids_at(one.belief.item, leveled(one.standing.T_world_object))) for one in known]
-    extents = [_extent(one) for one in known]
+    extents, moved = [_extent(one) for one in known], [one.is_moved for one in known]
     for index, (first, parts) in enumerate(bodies):
         for other in range(index):
             second, others = bodies[other]
-            if not (first.is_moved or second.is_moved) or not _near(extents[index], extents[other]):
+            if not (moved[index] or moved[other]) or not _near(extents[index], extents[other]):
                 continue
             if _belong_together(first, second):
                 continue

@@ -44,7 +44,8 @@ class Standings:
         self._open: set[str] = set()
         self._hosts = [one for one in beliefs.values() if is_host(one.item) and not one.is_absent]
         self._floors = {one.item.name: floors_of(one.item) for one in self._hosts}
-        self._rough = {one.item.name: self._rough_pose(one.item) for one in self._hosts}
+        rough = ((one.item.name, self._rough_pose(one.item)) for one in self._hosts)
+        self._T_rough_world = {name: pose.inverse() for name, pose in rough if pose is not None}
 
     def of(self, name: str) -> Standing | None:
         """Where this object stands; None where no source says, or the way there is a circle."""
@@ -111,8 +112,8 @@ class Standings:
     def _hosts_near(self, name: str, seen_m: Vec3) -> Iterator[Host]:
         """The hosts within which, or on top of which, this point may be, with where they stand."""
         for one in self._hosts:
-            rough = self._rough[one.item.name]
-            if one.item.name == name or rough is None or not _may_hold(one.item, rough, seen_m):
+            rough = self._T_rough_world.get(one.item.name)
+            if one.item.name == name or rough is None or not _may_hold(one.item, rough.apply(seen_m)):
                 continue
             standing = self.of(one.item.name)
             if standing is not None:
@@ -142,8 +143,9 @@ class Standings:
         return None
 
 
-def _may_hold(host: LabObject, T_world_host: Pose, seen_m: Vec3) -> bool:
-    x, y, z = T_world_host.inverse().apply(seen_m)
+def _may_hold(host: LabObject, point_m: Vec3) -> bool:
+    """Whether a point of the host's frame, which is roughly known, may be in or on it."""
+    x, y, z = point_m
     width, depth, height = host.size_m
     radius_m = math.hypot(width, depth) / 2 + 2 * HEIGHT_M
     return math.hypot(x, y) <= radius_m and -2 * HEIGHT_M <= z <= height + 2 * HEIGHT_M
