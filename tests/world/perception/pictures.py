@@ -55,7 +55,7 @@ def truth() -> World:
     world, said = ground(lab())
     assert world is not None, said
     return replace(world, objects=tuple(
-        replace(item, T_frame_object=Pose((0.36, -0.03, 0.0)), place="") if item.name == "bottle_1" else item
+        replace(item, T_frame_object=Pose((0.36, -0.25, 0.0)), place="") if item.name == "bottle_1" else item
         for item in world.objects
     ))  # fmt: skip
 

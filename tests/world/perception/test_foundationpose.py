@@ -37,7 +37,7 @@ def test_poses_come_from_the_other_process_with_masks_that_were_proposed(tmp_pat
     scene = tmp_path / "scene.yaml"
     scene.write_text(
         f"version: 1\nprofile: openarm_bench\nobjects_sha256: {objects_sha256(lab())}\nobjects:\n"
-        "  bottle_1: {frame: table, position: [0.36 m, -0.03 m, 0 m], confidence: 0.9}\n",
+        "  bottle_1: {frame: table, position: [0.36 m, -0.25 m, 0 m], confidence: 0.9}\n",
         encoding="utf-8",
     )
     request = rendered().request("bottle_1", "rack_1", "rack_2")
