@@ -17,6 +17,7 @@ from xei_lang.check.plan_file.facts import check_facts
 from xei_lang.check.plan_file.in_json import first_ones, in_json
 from xei_lang.check.plan_file.order import check_bounds, check_references, in_order
 from xei_lang.check.plan_file.steps import StepChecker
+from xei_lang.check.plan_file.works import check_works
 from xei_lang.check.report import Reporter
 from xei_lang.diagnostics import Diagnostics, Source, Sources, Span, has_errors
 from xei_lang.ir import forms
@@ -84,6 +85,7 @@ def check_plan(
     reporter = Reporter(sources)
     check_references(text.root, text.steps, reporter)
     check_bounds(plan.constraints, reporter)
+    check_works(plan.steps, text.root, reporter)
     check_facts(text.root, context)
     order = in_order(plan.steps, text.root, reporter)
     steps = StepChecker(context, source, text.root).check(plan, order)
