@@ -241,7 +241,7 @@ def _standoff(work: Work, found: tuple[ToolPose, ...], request: Request) -> Sett
 
 
 def _needed(member: ToolPose, request: Request) -> float:
-    approach = member.T_reference_tool.axes()[2]
+    approach = member.T_reference_tool.rotate((0.0, 0.0, 1.0))
     depth = request.height_m - member.T_reference_tool.position_m[2]
     elevation = math.asin(max(-1.0, min(1.0, -approach[2])))
     return standoff_needed_m(depth, request.closing.half_depth_m, elevation, request.hand)

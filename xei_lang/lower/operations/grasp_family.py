@@ -10,6 +10,7 @@ the object in the palm, an approach that comes from behind the object towards th
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from xei_lang.ir.geometry import Box, Capsule, Cylinder, Pose, Shape, Sphere
@@ -91,14 +92,14 @@ def members(request: Request) -> tuple[ToolPose, ...]:
     """All members, cheapest first; empty where nothing is left."""
     found: list[ToolPose] = []
     for elevation in request.elevations_deg:
+        rolls = (False,) if elevation == 90.0 else (False, True)
+        heights = [(turned, _heights(request, math.radians(elevation), turned)) for turned in rolls]
+        if not any(possible for _, possible in heights):
+            continue
         for heading in request.closing.headings_rad:
             if not _hopeless(request, elevation, heading):
-                rolls = (False,) if elevation == 90.0 else (False, True)
-                found.extend(
-                    _member(request, elevation, heading, turned, height)
-                    for turned in rolls
-                    for height in _heights(request, math.radians(elevation), turned)
-                )
+                for turned, possible in heights:
+                    found.extend(_at_heights(request, elevation, heading, turned, possible))
     return tuple(sorted(found, key=lambda member: (member.cost, member.name)))
 
 
@@ -153,26 +154,23 @@ def _deepest(request: Request, elevation_rad: float) -> float:
     return math.inf if down < 1e-9 else room / down
 
 
-def _member(request: Request, elevation: float, heading: float, turned: bool, height: float) -> ToolPose:
+def _at_heights(
+    request: Request, elevation: float, heading: float, turned: bool, heights: tuple[float, ...]
+) -> Iterator[ToolPose]:
+    """The members that differ in nothing but their height on the object."""
     x, y, z = tool_axes(_level(heading), math.radians(elevation), turned)
-    depth_mm = (request.height_m - height) * 1000
+    quaternion = Pose.from_axes((0.0, 0.0, 0.0), x, y, z).quaternion
     kind = {0.0: "from the side", 90.0: "straight down"}.get(elevation, f"{elevation:g} deg down")
     azimuth = math.degrees(heading) % 360.0
-    name = f"{kind}, azimuth {azimuth:g} deg{', rolled' if turned else ''}, {depth_mm:.1f} mm under the top"
-    return ToolPose(
-        name,
-        Pose.from_axes((0.0, 0.0, height), x, y, z),
-        _cost(request, elevation, heading, height),
-    )
-
-
-def _cost(request: Request, elevation: float, heading: float, height: float) -> float:
-    """Side and oblique grasps first, heading away from the robot, high on the object. Unitless, about 0 ..
-    1.
-    """
+    way = f"{kind}, azimuth {azimuth:g} deg{', rolled' if turned else ''}"
+    # Side and oblique grasps first, heading away from the robot; a straight one heads nowhere. About 0 .. 1.
     steep = {60.0: 0.1, 90.0: 0.4}.get(elevation, 0.0)
     turned_away = 0.0 if elevation == 90.0 else 0.2 * (1.0 - _alignment(request, heading))
-    return round(steep + turned_away + 0.1 * (1.0 - height / request.height_m), 6)
+    for height in heights:
+        depth_mm = (request.height_m - height) * 1000
+        cost = round(steep + turned_away + 0.1 * (1.0 - height / request.height_m), 6)
+        pose = Pose((0.0, 0.0, height), quaternion)
+        yield ToolPose(f"{way}, {depth_mm:.1f} mm under the top", pose, cost)
 
 
 def _level(heading: float) -> tuple[float, float, float]:
