@@ -10,7 +10,6 @@ from xei_lang.ir.forms.json_tree import JsonNode
 from xei_lang.ir.skill_plan import Step
 from xei_lang.ir.verify_works import ABOUT, ENDS
 
-
 _MOST_ENDS = 100
 """Of so many ends of one start it is looked whether two of them can happen."""
 
