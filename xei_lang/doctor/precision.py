@@ -1,4 +1,4 @@
-"""Slots whose place is known worse than the gap around what goes into them."""
+"""Slots and tips whose place is known worse than the gap around what goes into them."""
 
 from __future__ import annotations
 
@@ -7,21 +7,55 @@ from collections.abc import Iterator
 from xei_lang.doctor.blocker import Blocker
 from xei_lang.ir.world import World
 from xei_lang.profiles.files import CALIBRATION
-from xei_lang.profiles.grid import slot_keys
+from xei_lang.profiles.grid import T_object_slot, is_tip_grid, slot_keys
 from xei_lang.profiles.model import LabObject, Profile
+from xei_lang.quantity import Quantity
 from xei_lang.world.ground import ground
-from xei_lang.world.precision import SlotPrecision, slot_precision
+from xei_lang.world.precision import SlotPrecision, point_precision, slot_precision
 
 
 def precision_blockers(profile: Profile) -> Iterator[Blocker]:
-    """One blocker for each object with slots that the widest object they accept may miss."""
+    """One blocker for each object with slots that the widest object they accept may miss, or whose tips a
+    pipette may miss.
+    """
     world, _ = ground(profile)
     for holder in profile.objects if world is not None else ():
         assert world is not None
         worst = _worst(profile, world, holder)
         if worst is not None:
             name, found = worst
-            yield _blocker(profile, holder, name, found)
+            mend = (
+                f"calibrate `{{frame}}` more closely, or give `{holder.name}` wider chamfers: its slots take"
+            )
+            yield _blocker(profile, holder, name, found, mend)
+        for pipette in profile.objects:
+            missed = _missed_tip(profile, world, holder, pipette)
+            if missed is not None:
+                mend = f"calibrate `{{frame}}` more closely: the tips of `{holder.name}` take"
+                yield _blocker(profile, holder, pipette.name, missed, mend)
+
+
+def _missed_tip(
+    profile: Profile, world: World, holder: LabObject, pipette: LabObject
+) -> SlotPrecision | None:
+    """The tip of a box that a pipette misses most, by what the skills state as `alignment_tolerance`."""
+    grid, tip = holder.slots, pipette.tip
+    stated = [
+        item.value.si
+        for skill in profile.bank.skills
+        for item in skill.parameters
+        if item.name == "alignment_tolerance" and isinstance(item.value, Quantity)
+    ]
+    if grid is None or tip is None or not stated or not is_tip_grid(grid, tip):
+        return None
+    mouths = (T_object_slot(holder, key) for key in slot_keys(grid))
+    found = [
+        point_precision(world, profile, holder.name, mouth.position_m, min(stated))
+        for mouth in mouths
+        if mouth is not None
+    ]
+    missed = [item for item in found if item is not None and not item.is_enough]
+    return max(missed, key=lambda item: item.tolerance_m, default=None)
 
 
 def _worst(profile: Profile, world: World, holder: LabObject) -> tuple[str, SlotPrecision] | None:
@@ -35,7 +69,7 @@ def _worst(profile: Profile, world: World, holder: LabObject) -> tuple[str, Slot
     return (widest.name, max(known, key=lambda item: item.tolerance_m)) if known else None
 
 
-def _blocker(profile: Profile, holder: LabObject, name: str, found: SlotPrecision) -> Blocker:
+def _blocker(profile: Profile, holder: LabObject, name: str, found: SlotPrecision, mend: str) -> Blocker:
     calibrated = {frame.name for frame in profile.calibration.frames}
     weak = max(
         (link for link in found.way.links if link.name in calibrated),
@@ -44,9 +78,8 @@ def _blocker(profile: Profile, holder: LabObject, name: str, found: SlotPrecisio
     )
     item = f"frames.{weak.name}.tolerance"
     measure = (
-        f"calibrate `{weak.name}` more closely, or give `{holder.name}` wider chamfers: its slots take "
-        f"`{name}` with an error of {found.capture_m * 1000:.1f} mm, and may be "
-        f"{found.tolerance_m * 1000:.1f} mm off"
+        f"{mend.format(frame=weak.name)} `{name}` with an error of {found.capture_m * 1000:.1f} mm, and may "
+        f"be {found.tolerance_m * 1000:.1f} mm off"
     )
     where = f"slots.{holder.name}"
     return Blocker(

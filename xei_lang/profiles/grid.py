@@ -6,7 +6,9 @@ Kept apart from `world/places.py`, which offers it by place, because the checks 
 from __future__ import annotations
 
 from xei_lang.ir.geometry import Pose
-from xei_lang.profiles.model import LabObject, Profile, SlotGrid
+from xei_lang.profiles.model import LabObject, Profile, SlotGrid, Tip
+
+_SAME_LENGTH_M = 0.001
 
 
 def slot_keys(grid: SlotGrid) -> tuple[str, ...]:
@@ -33,6 +35,11 @@ def T_object_slot(item: LabObject, key: str) -> Pose | None:
     x, y, z = item.slots.origin_m
     pitch_x, pitch_y = item.slots.pitch_m
     return Pose((x + cell[1] * pitch_x - item.size_m[0] / 2, y + cell[0] * pitch_y - item.size_m[1] / 2, z))
+
+
+def is_tip_grid(grid: SlotGrid, tip: Tip) -> bool:
+    """Whether slots hold these tips: nothing else goes in, and they are as deep as the tips are long."""
+    return not grid.accepts and abs(grid.depth_m - tip.length_m) <= _SAME_LENGTH_M
 
 
 def T_object_spot(item: LabObject, key: str) -> Pose | None:

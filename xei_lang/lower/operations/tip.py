@@ -19,6 +19,7 @@ from xei_lang.lower.operations.pipette import Pipette, held_pipette
 from xei_lang.lower.parameters import Layers, Setting, computed_length
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.seats import Seat, seat_of
+from xei_lang.profiles.grid import is_tip_grid
 from xei_lang.profiles.model import LabObject
 from xei_lang.quantity import quantity
 
@@ -29,7 +30,6 @@ _ALIGNMENT_M = 0.0008
 _GRAVITY = 9.80665
 _FRICTION = 0.3
 """Of the jaws' pads on a pipette's shell: low, so that the pipette does not slip while it is pressed down."""
-_SAME_LENGTH_M = 0.001
 
 
 def plan_tip(work: Work) -> Planned:
@@ -103,8 +103,9 @@ def _seat(work: Work, ref: PlaceRef, pipette: Pipette) -> tuple[Seat, LabObject]
     if box.name not in work.scene.standing:
         refuse("XEI0710", f"it is not known where `{box.name}` stands", work.span, "not in the world")
     grid, tip = seat.grid, pipette.tip
-    if grid is None or abs(grid.depth_m - tip.length_m) > _SAME_LENGTH_M:
+    if grid is None or not is_tip_grid(grid, tip):
         found = "no slot" if grid is None else f"its slots are {grid.depth_m * 1000:g} mm deep"
+        found = f"it accepts {' or '.join(grid.accepts)}" if grid is not None and grid.accepts else found
         refuse(
             "XEI0726",
             f"`{seat.text}` holds no tip for `{pipette.known.name}`",

@@ -16,6 +16,7 @@ from xei_lang.profiles.checks.priors import check_priors
 from xei_lang.profiles.checks.rules import check_rules
 from xei_lang.profiles.checks.skills import check_skills
 from xei_lang.profiles.checks.template_order import check_template_order
+from xei_lang.profiles.checks.tips import check_tips
 from xei_lang.profiles.checks.unused import check_unused
 from xei_lang.profiles.model import Profile
 from xei_lang.profiles.trees import Trees
@@ -35,5 +36,6 @@ def check_profile(profile: Profile, trees: Trees) -> Diagnostics:
         *check_limits(profile, trees),
         *check_priors(profile),
         *check_geometry(profile, trees),
+        *check_tips(profile),
     )
     return found if has_errors(found) else (*found, *check_overlap(profile))

@@ -92,8 +92,8 @@ class ElementModel(Model):
 
 
 class TipModel(Model):
-    """The tips that a pipette takes: length and widest outer diameter of one, how deep the pipette's nose sits
-    in it, and what it holds.
+    """The tips that a pipette takes: length and widest outer diameter of one, how deep the nose sits in it,
+    and what it holds.
     """
 
     length: Size
