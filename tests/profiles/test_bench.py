@@ -33,6 +33,7 @@ def test_the_skill_bank_is_the_one_that_protocols_are_written_for():
         "wipe": ["object", "on", "length", "width", "arm"],
         "invert": ["object", "angle", "times", "arm"],
         "shake": ["object", "amplitude", "times", "arm"],
+        "handover": ["object", "arm", "to"],
     }
     assert all(skill.exposed and skill.phrases and skill.process for skill in bench().bank.skills)
 

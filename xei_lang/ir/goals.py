@@ -176,7 +176,9 @@ class Instrument:
 
 @dataclass(frozen=True, slots=True)
 class Attach:
-    """From here on the object moves with the hand."""
+    """From here on the object moves with the hand; one in the other hand is then in both, until that one
+    detaches.
+    """
 
     object: str
     arm: Side
@@ -185,12 +187,20 @@ class Attach:
 
 @dataclass(frozen=True, slots=True)
 class Detach:
-    """From here on the object stands at `T_base_object` (turned about z where the family is symmetric)."""
+    """From here on the object stands at `T_base_object` (turned about z where the family is symmetric).
+
+    Where `place` is a hand (`in_hand`), that hand holds it too by then and goes on holding it there.
+    """
 
     object: str
     arm: Side
     place: str
     T_base_object: Pose
+
+
+def in_hand(side: Side) -> str:
+    """The place of what a hand holds: no name of a profile has a space."""
+    return f"{side} hand"
 
 
 Action = (

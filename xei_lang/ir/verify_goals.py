@@ -27,6 +27,7 @@ from xei_lang.ir.goals import (
     SlideMove,
     ToolTarget,
     Wait,
+    in_hand,
 )
 from xei_lang.ir.verify_runs import run_problems
 from xei_lang.ir.verify_tool_paths import path_problems
@@ -183,24 +184,40 @@ def _numbers(action: object) -> Iterator[str]:
 
 
 def _hands(graph: MotionGoalGraph) -> Iterator[str]:
-    """Attach and detach in turn for each arm, of one object, which no other hand holds."""
+    """Attach and detach in turn for each arm, of one object. Only where it is left to the other hand may both
+    hold it, and then nothing but jaws moves.
+    """
     held: dict[str, Attach] = {}
-    for goal in graph.goals:
+    for index, goal in enumerate(graph.goals):
         action = goal.action
+        shared = len({item.object for item in held.values()}) < len(held)
+        if shared and not isinstance(action, (Grip, Detach, Wait, Confirm, SetDo, Instrument)):
+            yield f"goal `{goal.id}`: it moves while two hands hold one object"
         if isinstance(action, Attach):
             if action.arm in held:
                 yield f"goal `{goal.id}`: the {action.arm} hand already holds `{held[action.arm].object}`"
-            if any(item.object == action.object for item in held.values()):
+            other = next((arm for arm, item in held.items() if item.object == action.object), None)
+            if other is not None and not _is_left(graph, index, other, action):
                 yield f"goal `{goal.id}`: `{action.object}` is already in a hand"
             held[action.arm] = action
         elif isinstance(action, Detach):
             found = held.pop(action.arm, None)
             if found is None or found.object != action.object:
                 yield f"goal `{goal.id}`: the {action.arm} hand does not hold `{action.object}`"
+            holders = [in_hand(arm) for arm, item in held.items() if item.object == action.object]
+            if action.place not in holders and (holders or action.place.endswith(" hand")):
+                yield f"goal `{goal.id}`: `{action.object}` is not left where a hand holds it"
         elif isinstance(action, MoveTo) and isinstance(action.target, ToolTarget):
             found = held.get(action.arm or "")
             if found is not None and found.family != action.target.family:
                 yield f"goal `{goal.id}`: it aims by another family than the one it holds by"
+
+
+def _is_left(graph: MotionGoalGraph, index: int, giver: str, taken: Attach) -> bool:
+    """Whether the next detach of an object is by the hand that held it first, to the one that takes it."""
+    later = (goal.action for goal in graph.goals[index + 1 :])
+    found = next((act for act in later if isinstance(act, Detach) and act.object == taken.object), None)
+    return found is not None and found.arm == giver and found.place == in_hand(taken.arm)
 
 
 def _pose_fault(pose: Pose) -> str:

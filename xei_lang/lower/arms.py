@@ -66,6 +66,11 @@ def choose(name: str, ahead: tuple[Destination, ...], scene: Scene, profile: Pro
     return _nearest(name, ahead, scene, profile)
 
 
+def other_than(first: Choice) -> Choice:
+    """The second arm of a step that needs two."""
+    return Choice("left" if first.arm == "right" else "right", "the other arm of the step")
+
+
 def _nearest(name: str, ahead: tuple[Destination, ...], scene: Scene, profile: Profile) -> Choice:
     """The arm whose shoulder is nearer, sideways, to the worst of source and destinations."""
     points = _lateral_points(name, ahead, scene, profile)

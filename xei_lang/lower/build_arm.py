@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import get_args
 
 from xei_lang.diagnostics import Label
-from xei_lang.ir.goals import Attach, Detach, Grip, MoveTo, Parameter, PathKind
+from xei_lang.ir.goals import Attach, Detach, Grip, MoveTo, Parameter, PathKind, in_hand
 from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, Side
 from xei_lang.lower.build_path import PATH_FIELDS, Speed, Way, speed_of, way_of
 from xei_lang.lower.carry import states_of, to_carry_poses, to_configuration
@@ -14,6 +14,7 @@ from xei_lang.lower.draft import Builder, Draft, contacts
 from xei_lang.lower.hand import fingers, hand_of
 from xei_lang.lower.operations import Aim, Planned, operation_of_point
 from xei_lang.lower.operations.grasp import GRASP
+from xei_lang.lower.operations.handover import TAKE
 from xei_lang.lower.operations.place import PLACE
 from xei_lang.lower.parameters import ROUNDING_M
 from xei_lang.lower.refusal import refuse
@@ -77,7 +78,8 @@ def _move_to_point(task: Task, line: TemplateStep, path: PathKind, speed: Speed)
         allowed = tuple(sorted({*allowed, *((aim.fingertips, body) for body in fingers(arm))}))
     parameters = _once((*task.why_arm(line.field("tool")), *uses, *way.told, *speed.told))
     action = _action(aim, arm, path, line, way, speed)
-    return Draft("move_to", action, (f"{arm}_arm", "slide"), after, parameters, allowed)
+    resources = (f"{arm}_arm",) if aim.slide_stays else (f"{arm}_arm", "slide")
+    return Draft("move_to", action, resources, after, parameters, allowed)
 
 
 def _action(aim: Aim, arm: Side, path: PathKind, line: TemplateStep, way: Way, speed: Speed) -> MoveTo:
@@ -106,7 +108,7 @@ def _open_gripper(task: Task, line: TemplateStep) -> Draft:
     arm = task.arm(line.field("arm"), line)
     draft = _grip(task, line, arm)
     held = task.scene.held.get(arm)
-    if held is not None and not held.touching:
+    if held is not None and not held.touching and len(task.scene.holders(held.object)) == 1:
         _refuse_moving_jaws(task, arm, held, "would let it fall")
     return draft
 
@@ -150,21 +152,25 @@ def _grip(task: Task, line: TemplateStep, arm: Side) -> Draft:
 def _attach(task: Task, line: TemplateStep) -> Draft:
     arm, argument = task.arm(line.field("arm"), line), str(line.field("object"))
     subject = task.argument(argument)
-    planned = task.plans.get((GRASP.name, argument, arm))
+    planned = next(
+        (plan for taking in (GRASP, TAKE) if (plan := task.plans.get((taking.name, argument, arm)))), None
+    )
     if not isinstance(subject, ObjectRef) or planned is None or planned.family is None:
         refuse_template(
             line, f"`{argument}` was not grasped before `attach`", "expected `move_to` its grasp first"
         )
-    standing = task.scene.standing[subject.name]
+    standing = task.scene.standing.get(subject.name)
+    T_world_object = standing.T_world_object if standing else planned.T_world_placed
+    assert T_world_object is not None
     held = Held(
         subject.name,
         planned.family,
-        standing.T_world_object,
-        task.scene.in_base(standing.T_world_object),
+        T_world_object,
+        task.scene.in_base(T_world_object),
         planned.settings["standoff"].si("Length"),
         planned.settings["grasp_width"].si("Length"),
         planned.floor_m,
-        standing.support,
+        standing.support if standing else "",
         Label(task.step.span, f"`{subject.name}` is picked up here"),
     )
     after = task.scene.attach(arm, held)
@@ -174,6 +180,8 @@ def _attach(task: Task, line: TemplateStep) -> Draft:
 
 def _detach(task: Task, line: TemplateStep) -> Draft:
     arm, argument = task.arm(line.field("arm"), line), str(line.field("at"))
+    if argument in task.arms:
+        return _hand_over(task, line, arm, task.arm(argument, line))
     ref, planned = task.argument(argument), _place_plan(task, line, argument, arm)
     if not isinstance(ref, PlaceRef) or planned.T_world_placed is None:
         refuse_template(line, f"`{argument}` is not a place", "expected an argument of type Place")
@@ -184,6 +192,18 @@ def _detach(task: Task, line: TemplateStep) -> Draft:
     after = task.scene.detach(arm, standing)
     action = Detach(held.object, arm, place_text(ref), task.scene.in_base(planned.T_world_placed))
     return Draft("detach", action, (f"{arm}_gripper",), after, (), contacts(task.scene, after))
+
+
+def _hand_over(task: Task, line: TemplateStep, giver: Side, taker: Side) -> Draft:
+    """The giver leaves the object to the taker, which holds it where it was taken."""
+    given, taken = task.scene.held.get(giver), task.scene.held.get(taker)
+    if given is None or taken is None or given.object != taken.object:
+        refuse_template(
+            line, f"the {taker} hand does not hold what is left to it", "expected `attach` with it first"
+        )
+    after = task.scene.let_go(giver)
+    action = Detach(given.object, giver, in_hand(taker), taken.T_base_grasped)
+    return Draft("detach", action, (f"{giver}_gripper",), after, (), contacts(task.scene, after))
 
 
 def _place_plan(task: Task, line: TemplateStep, argument: str, arm: Side) -> Planned:

@@ -10,7 +10,7 @@ from xei_lang.ir.goals import Action, Confirm, Instrument, MotionGoalGraph, Wait
 from xei_lang.ir.skill_plan import ObjectRef, PoseIn, Side, SkillPlan, Step, Value
 from xei_lang.ir.world import World
 from xei_lang.lower import instruments
-from xei_lang.lower.arms import Choice, choose, destinations
+from xei_lang.lower.arms import Choice, choose, destinations, other_than
 from xei_lang.lower.assemble import Assembly
 from xei_lang.lower.decided_later import decided_when_it_runs
 from xei_lang.lower.draft import Draft, contacts
@@ -149,9 +149,12 @@ def _task(
         if argument.type == "Arm":
             stated: Side | None = next((side for side in SIDES if step.arg(argument.name) == side), None)
             about = name or next(iter(_objects(step)), "")
-            arms[argument.name] = Choice(stated, "") if stated else choose(about, ahead, scene, profile)
-            if arm is not None:
-                arms[argument.name] = Choice(arm, "the other arm was tried and cannot")
+            chosen = Choice(stated, "") if stated else choose(about, ahead, scene, profile)
+            if not stated and arms:
+                chosen = other_than(next(iter(arms.values())))
+            elif arm is not None:
+                chosen = Choice(arm, "the other arm was tried and cannot")
+            arms[argument.name] = chosen
     return Task(profile, step, spec, scene, arms, name, ahead)
 
 

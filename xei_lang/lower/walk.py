@@ -85,6 +85,10 @@ class Scene:
         """The hand that holds the object, or None."""
         return next((side for side, held in self.held.items() if held.object == name), None)
 
+    def holders(self, name: str) -> tuple[Side, ...]:
+        """The hands that hold the object: two while it is handed over."""
+        return tuple(side for side, held in self.held.items() if held.object == name)
+
     def carried_by(self, name: str) -> tuple[Standing, ...]:
         """What stands in or on the object."""
         return tuple(item for item in self.standing.values() if item.support == name)
@@ -102,6 +106,10 @@ class Scene:
         """The hand leaves its object standing."""
         held = {key: item for key, item in self.held.items() if key != side}
         return replace(self, held=held, standing={**self.standing, standing.object: standing})
+
+    def let_go(self, side: Side) -> Scene:
+        """The hand leaves its object to the other one, which holds it too."""
+        return replace(self, held={key: item for key, item in self.held.items() if key != side})
 
     def touch(self, side: Side, support: str, entered: tuple[str, ...] = ()) -> Scene:
         """What the hand holds now touches this support (empty: nothing) and stands in what it has entered."""

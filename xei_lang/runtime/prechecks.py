@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from xei_lang.ir.goals import Attach, Detach, MotionGoal, NavToPose, SetDo
+from xei_lang.ir.goals import Attach, Detach, MotionGoal, MotionGoalGraph, NavToPose, SetDo, in_hand
+from xei_lang.ir.skill_plan import Side
 from xei_lang.ir.timed import TimedGoal
 from xei_lang.profiles.model import Profile
 from xei_lang.runtime.failure import Failure, failure
@@ -17,13 +18,14 @@ START_TOLERANCE = 1e-4
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """A goal about to start: the state it meets, and the goals that are still running."""
+    """A goal about to start: the state it meets, the goals that are still running, and all goals."""
 
     goal: MotionGoal
     timed: TimedGoal
     state: RunState
     running: tuple[TimedGoal, ...]
     profile: Profile
+    graph: MotionGoalGraph
 
 
 def _epoch(now: Moment) -> Failure | None:
@@ -84,7 +86,7 @@ def _hand(now: Moment) -> Failure | None:
             holder = next((side for side, held in now.state.holding.items() if held == name), None)
             if arm in now.state.holding:
                 return _fail("XEI0911", f"the {arm} hand already holds `{now.state.holding[arm]}`", now)
-            if holder:
+            if holder and not _leaves(now, holder, arm):
                 return _fail("XEI0911", f"`{name}` is in the {holder} hand", now)
             if arm not in now.state.closed:
                 return _fail("XEI0911", f"the {arm} gripper is open where it should hold `{name}`", now)
@@ -97,6 +99,19 @@ def _hand(now: Moment) -> Failure | None:
         case _:
             return _attached_is_held(now)
     return None
+
+
+def _leaves(now: Moment, giver: str, taker: Side) -> bool:
+    """Whether the hand that holds the object leaves it, next of all goals that let go of it, to the one that
+    takes it.
+    """
+    assert isinstance(now.goal.action, Attach)
+    name, found = now.goal.action.object, False
+    for goal in now.graph.goals:
+        if found and isinstance(goal.action, Detach) and goal.action.object == name:
+            return goal.action.arm == giver and goal.action.place == in_hand(taker)
+        found = found or goal.id == now.goal.id
+    return False
 
 
 def _attached_is_held(now: Moment) -> Failure | None:

@@ -138,7 +138,9 @@ class _Course:
         executor = self.executor
         assert executor is not None
         running = tuple(self.running)
-        passed, found = first_failure(Moment(goal, timed, state, running, self.given.profile))
+        passed, found = first_failure(
+            Moment(goal, timed, state, running, self.given.profile, self.given.graph)
+        )
         declined = False
         if found is None and isinstance(goal.action, Confirm):
             found, declined = self._confirm(goal, goal.action)

@@ -7,6 +7,7 @@ from __future__ import annotations
 from xei_lang.lower.operations.base import Aim, Area, Axis, Operation, Planned, Work
 from xei_lang.lower.operations.draw import ASPIRATE, DISPENSE
 from xei_lang.lower.operations.grasp import GRASP
+from xei_lang.lower.operations.handover import GIVE, TAKE
 from xei_lang.lower.operations.invert import INVERT, SHAKE
 from xei_lang.lower.operations.lift import LIFT
 from xei_lang.lower.operations.place import PLACE
@@ -25,6 +26,8 @@ OPERATIONS: tuple[Operation, ...] = (
     WIPE,
     INVERT,
     SHAKE,
+    GIVE,
+    TAKE,
     TIP,
     ASPIRATE,
     DISPENSE,

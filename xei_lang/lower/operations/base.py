@@ -41,7 +41,8 @@ class Aim:
 
     `support` is what the held object may touch once it is there; `around` is the object that the open jaws
     then enclose; `fingertips` is what the fingers themselves may touch on the way there or away; `entered`
-    is what the held object goes into there, and may touch until it has come out again.
+    is what the held object goes into there, and may touch until it has come out again. With `slide_stays` the
+    other arm, which rides on the slide too, is not moved.
     """
 
     target: ToolTarget
@@ -50,6 +51,7 @@ class Aim:
     around: str = ""
     fingertips: str = ""
     entered: tuple[str, ...] = ()
+    slide_stays: bool = False
 
 
 @dataclass(frozen=True, slots=True)

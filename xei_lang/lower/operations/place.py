@@ -48,7 +48,7 @@ def _aims(work: Work, held: Held, T_world_placed: Pose, depth: Setting | None) -
     standoff = work.layers.merge(
         "standoff", computed_length("standoff", held.standoff_m, f"as when `{held.object}` was grasped")
     )
-    release = _release_width(work, held)
+    release = release_width(work, held)
     assert standoff is not None
     family, turn = held.family.id, held.family.symmetric
     up = along(T_base_placed.axes()[2], height.si("Length"))
@@ -168,7 +168,8 @@ def _world_seat(work: Work, seat: Seat, known: LabObject) -> Pose:
     return host.T_world_object @ room
 
 
-def _release_width(work: Work, held: Held) -> tuple[Setting, Setting]:
+def release_width(work: Work, held: Held) -> tuple[Setting, Setting]:
+    """The settings `jaw_clearance` and `release_width` of the jaws that let go of what a hand holds."""
     gap_m = hand_of(work.profile).max_gap_m
     room_m = (gap_m - held.grasp_width_m) / 2
     default = work.layers.merge("jaw_clearance", None)

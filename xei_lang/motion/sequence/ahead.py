@@ -6,11 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from xei_lang.ir.goals import JointTarget, MotionGoal, MoveTo, NavToPose
+from xei_lang.ir.goals import Detach, JointTarget, MotionGoal, MoveTo, NavToPose
 from xei_lang.ir.skill_plan import Side
 from xei_lang.motion.sequence.choose import Array
 from xei_lang.motion.sequence.context import Context
 from xei_lang.motion.sequence.group import Ahead
+from xei_lang.motion.sequence.parting import parting_of
 from xei_lang.motion.sequence.rehearse import Rehearsal, rehearse_group
 from xei_lang.motion.sequence.sections import Group, Part
 from xei_lang.motion.sequence.snapshot import Snapshot
@@ -19,7 +20,11 @@ from xei_lang.motion.sequence.snapshot import Snapshot
 def look_ahead(context: Context, group: Group, later: tuple[Part, ...], start: Snapshot) -> Ahead:
     """The outlook of a group that begins at `start`, with the parts that follow it in order."""
     after = rehearse_group(context, group, start)[-1].after
-    return Ahead(_next_configuration(context, group.arm, later), _release(context, group.arm, later, after))
+    return Ahead(
+        _next_configuration(context, group.arm, later),
+        _release(context, group.arm, later, after),
+        parting_of(later, after),
+    )
 
 
 def _next_configuration(context: Context, arm: Side, later: tuple[Part, ...]) -> Array | None:
@@ -37,6 +42,8 @@ def _release(context: Context, arm: Side, later: tuple[Part, ...], now: Snapshot
         return ()
     found: list[Rehearsal] = []
     for part in later:
+        if arm not in now.held:
+            break
         if isinstance(part, MotionGoal):
             now = _passed(context, part, now)
             continue
@@ -54,6 +61,8 @@ def _passed(context: Context, goal: MotionGoal, now: Snapshot) -> Snapshot:
     action = goal.action
     if isinstance(action, NavToPose):
         return replace(now, T_world_base=action.T_world_base)
+    if isinstance(action, Detach):
+        return now.detached(action.arm, action.T_base_object)
     target = _named(goal)
     if target is None:
         return now

@@ -11,6 +11,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from xei_lang.ir.geometry import Pose
 from xei_lang.ir.goals import Attach, Detach, Grip, MotionGoal, MoveTo
 from xei_lang.ir.timed import Placement
 from xei_lang.motion.paths.joint_path import JointPath, line_path, spline_path
@@ -21,7 +22,7 @@ from xei_lang.motion.sequence.legs import JUMP_RAD, tool_path
 from xei_lang.motion.sequence.motions import Motion
 from xei_lang.motion.sequence.poses import pose_of
 from xei_lang.motion.sequence.sections import Chain
-from xei_lang.motion.sequence.snapshot import Held, Snapshot
+from xei_lang.motion.sequence.snapshot import UNCHOSEN, Held, Snapshot
 
 Array = NDArray[np.float64]
 
@@ -139,7 +140,7 @@ def _hand_action(
     if isinstance(action, Grip):
         return grip(context, goal, action, before)
     if isinstance(action, Attach):
-        held = take(chain, action, target, member, before)
+        held = take(context, chain, action, target, member, before)
         after = before.attached(action.arm, held)
         return Motion(goal, before, after, arm=action.arm, choice=told)
     if isinstance(action, Detach):
@@ -156,10 +157,22 @@ def still(goal: MotionGoal, before: Snapshot, duration_s: float | None = None) -
     return Motion(goal, before, before, duration_s=goal.min_duration_s if duration_s is None else duration_s)
 
 
-def take(chain: Chain, action: Attach, target: int, member: int, before: Snapshot) -> Held:
+def take(context: Context, chain: Chain, action: Attach, target: int, member: int, before: Snapshot) -> Held:
     """The grasp of an object by a member, where the family's reference stands at the chain's target."""
-    T_reference_base = chain.targets[target].T_base_reference.inverse()
-    return Held(action.object, chain.family, member, T_reference_base @ before.T_base_object(action.object))
+    T_base_reference = chain.targets[target].T_base_reference
+    T_base_object = where(context, action.object, before) or T_base_reference
+    return Held(action.object, chain.family, member, T_base_reference.inverse() @ T_base_object)
+
+
+def where(context: Context, name: str, before: Snapshot) -> Pose | None:
+    """Where an object is in the base frame; None in a hand by a grasp that is not chosen yet."""
+    giver = next(iter(before.holders(name)), None)
+    if giver is None:
+        return before.T_base_object(name)
+    if before.held[giver].member == UNCHOSEN:
+        return None
+    T_base_tool = context.robot.T_base_frame(before.q, context.robot.arm(giver).tool_frame)
+    return pose_of(T_base_tool) @ before.held[giver].T_tool_object
 
 
 def as_held(chain: Chain, snapshot: Snapshot, member: int) -> Snapshot:

@@ -8,11 +8,22 @@ from dataclasses import replace
 import numpy as np
 
 from xei_lang.ir.geometry import Pose
-from xei_lang.ir.goals import Grip, JointTarget, MotionGoal, MoveTo, NavToPose, Perceive, SlideMove, Wait
+from xei_lang.ir.goals import (
+    Detach,
+    Grip,
+    JointTarget,
+    MotionGoal,
+    MoveTo,
+    NavToPose,
+    Perceive,
+    SlideMove,
+    Wait,
+)
+from xei_lang.ir.timed import Placement
 from xei_lang.motion.paths.free import PathBlocked
 from xei_lang.motion.sequence.both_arms import plan_joints
 from xei_lang.motion.sequence.context import Context
-from xei_lang.motion.sequence.enact import grip, still
+from xei_lang.motion.sequence.enact import grip, still, where
 from xei_lang.motion.sequence.motions import Motion
 from xei_lang.motion.sequence.snapshot import Snapshot
 
@@ -32,12 +43,22 @@ def plan_fixed(context: Context, goal: MotionGoal, before: Snapshot) -> Motion |
         return _to_joints(context, goal, target, before, 1.0)
     if isinstance(action, Grip):
         return grip(context, goal, action, before)
+    if isinstance(action, Detach):
+        return let_go(context, goal, action, before)
     if isinstance(action, NavToPose):
         after = replace(before, T_world_base=action.T_world_base)
         straight_s = _drive_s(context, before.T_world_base, action.T_world_base)
         # A way by the map is never shorter than the straight one; lowering states its time.
         return Motion(goal, before, after, duration_s=max(straight_s, goal.min_duration_s))
     return still(goal, before, _still_s(goal))
+
+
+def let_go(context: Context, goal: MotionGoal, action: Detach, before: Snapshot) -> Motion:
+    """A hand leaves its object to the other hand, where it is."""
+    T_base_object = where(context, action.object, before) or action.T_base_object
+    placed = (Placement(action.object, T_base_object),)
+    after = before.detached(action.arm, T_base_object)
+    return Motion(goal, before, after, arm=action.arm, placed=placed)
 
 
 def _still_s(goal: MotionGoal) -> float:

@@ -21,6 +21,8 @@ from xei_lang.motion.sequence.enact import as_held, carry_out
 from xei_lang.motion.sequence.fixed import plan_fixed
 from xei_lang.motion.sequence.layers import LEAN, THOROUGH, Effort, Layer, enumerate_layer, slide_heights
 from xei_lang.motion.sequence.motions import Motion
+from xei_lang.motion.sequence.onward import goes_on, onward_layer
+from xei_lang.motion.sequence.parting import Parting, parting_touch
 from xei_lang.motion.sequence.poses import same_grasp
 from xei_lang.motion.sequence.rehearse import Rehearsal, rehearse_group
 from xei_lang.motion.sequence.search import Search, avoid, stages_of, travel
@@ -41,11 +43,12 @@ DETOUR_S = 0.5
 class Ahead:
     """What comes after a group: the configuration (7,) of the arm that is named next, if one is, and the
     chains of later groups in which the hand still holds what it took in this one, up to where it lets go: the
-    grasp must serve in all of them.
+    grasp must serve in all of them; and how the hand parts from it that this group takes it from.
     """
 
     configuration: Array | None = None
     release: tuple[Rehearsal, ...] = ()
+    parting: Parting | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,8 +101,12 @@ def _attempt(
     for rehearsal in rehearsals:
         chain = rehearsal.chain
         tried = heights if chain.slide_free else heights[:1]
-        layer = enumerate_layer(
-            context, chain, tried, _allowed(rehearsal), target_check(context, rehearsal), effort
+        layer = (
+            onward_layer(context, chain, start)
+            if goes_on(chain) and not layers
+            else enumerate_layer(
+                context, chain, tried, _allowed(rehearsal), target_check(context, rehearsal), effort
+            )
         )
         if len(layer) == 0:
             return Unplaced(rehearsal, ())
@@ -110,6 +117,7 @@ def _attempt(
         tuple(layers),
         [np.ones(len(layer), dtype=bool) for layer in layers],
         [[] for _ in layers],
+        ahead.parting,
     )
     return _search(context, group, search, start, ahead, effort.blocked_transits)
 
@@ -160,7 +168,8 @@ def _all_sound(context: Context, search: Search, chosen: tuple[int, ...]) -> boo
     ):
         if (stage, index) in search.sound:
             continue
-        touch = _first_touch(context, rehearsal, layer, index)
+        parting = search.parting if stage == search.own - 1 else None
+        touch = _first_touch(context, rehearsal, layer, index, parting)
         if touch is None:
             search.sound.add((stage, index))
         else:
@@ -179,7 +188,7 @@ def _dearer(
     found = False
     for stage, (rehearsal, layer) in enumerate(zip(search.rehearsals, search.layers, strict=True)):
         pair, seen = (run[stage], run[stage + 1]), search.glanced.setdefault(stage, set())
-        if stage >= search.own or pair in seen or len(seen) >= MAX_GLANCES or keeps_upright(rehearsal):
+        if stage >= search.own or pair in seen or len(seen) >= MAX_GLANCES or _is_stated(rehearsal):
             continue
         seen.add(pair)
         q_from = now if stage == 0 else search.layers[stage - 1].q[pair[0], -1]
@@ -192,7 +201,14 @@ def _dearer(
     return found
 
 
-def _first_touch(context: Context, rehearsal: Rehearsal, layer: Layer, index: int) -> Touch | None:
+def _is_stated(rehearsal: Rehearsal) -> bool:
+    """Whether the straight line in joint space says nothing of the move that a chain begins with."""
+    return keeps_upright(rehearsal) or goes_on(rehearsal.chain)
+
+
+def _first_touch(
+    context: Context, rehearsal: Rehearsal, layer: Layer, index: int, parting: Parting | None
+) -> Touch | None:
     chain = rehearsal.chain
     before = as_held(chain, rehearsal.before, int(layer.member[index]))
     start = before.moved(context.lift(before.q, chain.arm, layer.q[index, 0]))
@@ -203,6 +219,8 @@ def _first_touch(context: Context, rehearsal: Rehearsal, layer: Layer, index: in
         bodies = motion_contact(context, motion)
         if bodies is not None:
             return Touch(int(layer.member[index]), bodies)
+    if parting is not None and motions:
+        return parting_touch(context, parting, motions[-1].after, int(layer.member[index]))
     return None
 
 

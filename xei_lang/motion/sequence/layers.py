@@ -97,7 +97,7 @@ def enumerate_layer(
     poses = np.stack([tool_poses(target, chain.family) for target in chain.targets])
     ranked = _ranked(context, chain, poses, allowed)
     found = np.zeros(len(heights), dtype=np.int64)
-    kept: list[Rows] = [_none(len(poses))]
+    kept: list[Rows] = [none_of(len(poses))]
     for first in range(0, len(ranked), MEMBERS_PER_ROUND):
         hungry = np.flatnonzero(found < effort.poses_per_height)
         if len(hungry) == 0:
@@ -108,7 +108,7 @@ def enumerate_layer(
         kept.append(rows)
         for index in hungry:
             found[index] += len(np.unique(rows.member[rows.q[:, 0, 0] == heights[index]]))
-    return _layer(context, chain, poses, _joined(kept))
+    return layer_of(context, chain, poses, _joined(kept))
 
 
 def _ranked(context: Context, chain: Chain, poses: Array, allowed: Bools) -> NDArray[np.intp]:
@@ -146,7 +146,8 @@ class Rows:
         return Rows(self.q[index], self.member[index], self.swivel_angle[index], self.branch[index])
 
 
-def _none(targets: int) -> Rows:
+def none_of(targets: int) -> Rows:
+    """No rows."""
     empty = np.zeros(0, dtype=np.int64)
     return Rows(np.zeros((0, targets, 8)), empty, np.zeros((0, targets)), empty)
 
@@ -241,7 +242,8 @@ def _without_contact(rows: Rows, touches: CheckTarget) -> Rows:
     return rows
 
 
-def _layer(context: Context, chain: Chain, poses: Array, rows: Rows) -> Layer:
+def layer_of(context: Context, chain: Chain, poses: Array, rows: Rows) -> Layer:
+    """The candidates that configurations make, with their costs."""
     limits = context.limits_of(context.robot.arm(chain.arm).joint_names)
     lower, upper = (np.array([getattr(limit, name) for limit in limits]) for name in ("lower", "upper"))
     arm = rows.q[:, :, 1:]

@@ -42,7 +42,7 @@ def rehearse(context: Context, chain: Chain, before: Snapshot) -> Rehearsal:
         elif isinstance(action, Grip):
             now = now.moved(context.robot.with_opening(now.q, action.arm, action.opening_m))
         elif isinstance(action, Attach):
-            now = now.attached(action.arm, take(chain, action, len(moments) - 1, UNCHOSEN, now))
+            now = now.attached(action.arm, take(context, chain, action, len(moments) - 1, UNCHOSEN, now))
         elif isinstance(action, Detach) and action.arm in now.held:
             now = now.detached(action.arm, action.T_base_object)
     return Rehearsal(chain, before, tuple(moments), now)

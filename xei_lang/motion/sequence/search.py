@@ -12,6 +12,7 @@ from xei_lang.motion.sequence.choose import Bools, Speeds, Stage
 from xei_lang.motion.sequence.context import Context
 from xei_lang.motion.sequence.layers import Layer
 from xei_lang.motion.sequence.motions import Motion
+from xei_lang.motion.sequence.parting import Parting
 from xei_lang.motion.sequence.rehearse import Rehearsal
 from xei_lang.motion.sequence.space import Touch
 from xei_lang.motion.sequence.transit import keeps_upright
@@ -34,6 +35,7 @@ class Search:
     layers: tuple[Layer, ...]
     alive: list[Bools]
     struck: list[list[Touch]]
+    parting: Parting | None = None
     transits: dict[tuple[int, ...], Motion | PathBlocked] = field(
         default_factory=dict[tuple[int, ...], Motion | PathBlocked]
     )

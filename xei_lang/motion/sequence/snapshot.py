@@ -55,15 +55,23 @@ class Snapshot:
         """Pose of a standing object in the base frame. KeyError for an object in a hand."""
         return self.T_world_base.inverse() @ self.standing[name]
 
+    def holders(self, name: str) -> tuple[Side, ...]:
+        """The hands that hold an object, sorted: two while it is handed over."""
+        return tuple(side for side, held in sorted(self.held.items()) if held.object == name)
+
     def attached(self, side: Side, held: Held) -> Snapshot:
         """The state after the hand has taken the object."""
         standing = {name: pose for name, pose in self.standing.items() if name != held.object}
         return replace(self, standing=standing, held={**self.held, side: held})
 
     def detached(self, side: Side, T_base_object: Pose) -> Snapshot:
-        """The state after the hand has left its object at a pose in the base frame."""
+        """The state after the hand has left its object at a pose in the base frame, or to the other hand that
+        holds it too.
+        """
         held = {arm: item for arm, item in self.held.items() if arm != side}
         name = self.held[side].object
+        if len(self.holders(name)) > 1:
+            return replace(self, held=held)
         standing = dict(sorted({**self.standing, name: self.T_world_base @ T_base_object}.items()))
         return replace(self, standing=standing, held=held)
 

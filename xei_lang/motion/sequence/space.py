@@ -35,18 +35,19 @@ class Touch:
 
 
 def scene_of(
-    context: Context, snapshot: Snapshot, allowed: tuple[Pair, ...], with_held: bool = True
+    context: Context, snapshot: Snapshot, allowed: tuple[Pair, ...], aside: Side | None = None
 ) -> CollisionScene:
-    """The scene of a snapshot in the base frame, pairs in `allowed` left out; without what the hands hold if
-    so asked.
+    """The scene of a snapshot in the base frame, pairs in `allowed` left out; without what the hand `aside`
+    holds. What two hands hold is carried by one of them: between them nothing moves.
 
     Scenes of equal content are one scene: compiling one takes longer than asking it a hundred questions.
     """
-    carried: tuple[Carried, ...] = tuple(
-        (side, held.object, held.T_tool_object)
+    hands = {
+        held.object: (side, held.object, held.T_tool_object)
         for side, held in sorted(snapshot.held.items())
-        if with_held and held.member != UNCHOSEN
-    )
+        if side != aside and held.member != UNCHOSEN
+    }
+    carried: tuple[Carried, ...] = tuple(hands.values())
     present = {*snapshot.standing, *(name for _, name, _ in carried)}
     named = tuple(
         sorted({pair for pair in allowed if all(_is_present(context, name, present) for name in pair)})
@@ -85,9 +86,9 @@ def touching(scene: CollisionScene, q: Array) -> Pair | None:
 
 
 def target_check(context: Context, rehearsal: Rehearsal) -> Callable[[int, Array], Bools]:
-    """Which configurations (n, 8) touch something at a target of a chain, what the hand holds left aside."""
+    """Which configurations (n, 8) touch something at a target of a chain, what its hand holds left aside."""
     scenes = [
-        scene_of(context, moment.snapshot, moment.goal.allowed_contacts, with_held=False)
+        scene_of(context, moment.snapshot, moment.goal.allowed_contacts, rehearsal.chain.arm)
         for moment in rehearsal.moments
     ]
 
@@ -101,7 +102,7 @@ def target_check(context: Context, rehearsal: Rehearsal) -> Callable[[int, Array
 def target_contact(context: Context, rehearsal: Rehearsal, q: Array) -> Pair | None:
     """The first two bodies that touch at a chain's targets with the configurations q (targets, 8)."""
     for moment, row in zip(rehearsal.moments, q, strict=True):
-        scene = scene_of(context, moment.snapshot, moment.goal.allowed_contacts, with_held=False)
+        scene = scene_of(context, moment.snapshot, moment.goal.allowed_contacts, rehearsal.chain.arm)
         pair = touching(scene, context.lift(moment.snapshot.q, rehearsal.chain.arm, row))
         if pair is not None:
             return pair

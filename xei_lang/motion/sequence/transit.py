@@ -11,10 +11,11 @@ from xei_lang.motion.sequence.context import Context
 from xei_lang.motion.sequence.enact import choice_name
 from xei_lang.motion.sequence.layers import Layer
 from xei_lang.motion.sequence.motions import Motion
+from xei_lang.motion.sequence.onward import goes_on, straight_on
 from xei_lang.motion.sequence.rehearse import Rehearsal
 from xei_lang.motion.sequence.sections import Chain
 from xei_lang.motion.sequence.snapshot import Snapshot
-from xei_lang.motion.sequence.space import space_for
+from xei_lang.motion.sequence.space import motion_contact, space_for
 from xei_lang.motion.sequence.upright import plan_upright, tilt
 from xei_lang.motion.sequence.upright_joints import plan_upright_joints
 
@@ -40,6 +41,8 @@ def plan_transit(
     chain, goal = layer.chain, layer.chain.head
     assert isinstance(goal.action, MoveTo)
     q_goal = layer.q[index, 0]
+    if goes_on(chain) and _shows(context, layer, index, before):
+        return _onward(context, layer, index, before)
     keep = upright and goal.action.keep_upright and chain.arm in before.held
     found = _upright(context, chain, before, q_goal) if keep else _free(context, chain, before, q_goal)
     if isinstance(found, PathBlocked):
@@ -49,6 +52,30 @@ def plan_transit(
         goal, before, after, found.path, found.planner, speed_fraction=goal.action.speed_fraction,
         arm=chain.arm, choice=choice_name(layer, index, before),
     )  # fmt: skip
+
+
+def _shows(context: Context, layer: Layer, index: int, before: Snapshot) -> bool:
+    """Whether the arm holds the slide, swivel and branch of a candidate already."""
+    q = before.q[context.arm_indices(layer.chain.arm)]
+    swivel, branch = context.solvers[layer.chain.arm].describe(q[1:])
+    same = abs(q[0] - layer.q[index, 0, 0]) < 1e-9 and abs(swivel - layer.swivel_angle[index, 0]) < 1e-9
+    return same and branch == layer.branch[index]
+
+
+def _onward(context: Context, layer: Layer, index: int, before: Snapshot) -> Motion | PathBlocked:
+    """The straight move that a chain begins with, where nothing is in its way."""
+    chain, goal = layer.chain, layer.chain.head
+    assert isinstance(goal.action, MoveTo)
+    found = straight_on(context, layer, index, before)
+    if isinstance(found, PathBlocked):
+        return found
+    after = before.moved(context.lift(before.q, chain.arm, layer.q[index, 0]))
+    motion = Motion(
+        goal, before, after, found.path, found.planner, speed_fraction=goal.action.speed_fraction,
+        arm=chain.arm, choice=choice_name(layer, index, before),
+    )  # fmt: skip
+    bodies = motion_contact(context, motion)
+    return motion if bodies is None else PathBlocked("between", bodies)
 
 
 def worst_tilt(context: Context, motion: Motion) -> float:

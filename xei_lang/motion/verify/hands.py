@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from itertools import combinations
 
 from xei_lang.ir.geometry import Pose
-from xei_lang.ir.goals import Attach, Detach, MotionGoal
+from xei_lang.ir.goals import Attach, Detach, MotionGoal, in_hand
 from xei_lang.ir.timed import TimedGoal
 from xei_lang.motion.verify.context import Context, pose_error
 from xei_lang.motion.verify.timeline import Moment
@@ -19,6 +20,7 @@ def check_hands(context: Context) -> None:
         if planned is None:
             continue
         _check_listed(context, goal)
+        _check_shared(context, goal)
         _check_carried(context, goal)
         if isinstance(planned.action, Attach):
             _check_attach(context, goal, planned.action)
@@ -73,8 +75,20 @@ def _check_carried(context: Context, goal: TimedGoal) -> None:
             context.found("attachment", goal, goal.start_s, held.object, text)
 
 
+def _check_shared(context: Context, goal: TimedGoal) -> None:
+    """While two hands hold an object, no joint moves the one against the other."""
+    moved = {context.robot.column[joint] for joint in goal.joints if joint in context.robot.column}
+    held = context.timeline.starts[goal.id].scene.held
+    for first, second in combinations(held, 2):
+        between = set(context.robot.columns(first.link)) ^ set(context.robot.columns(second.link))
+        if first.object == second.object and moved & between:
+            text = f"`{first.object}` is in both hands while one moves against the other"
+            context.found("attachment", goal, goal.start_s, first.object, text)
+
+
 def _check_attach(context: Context, goal: TimedGoal, action: Attach) -> None:
-    if any(item.object == action.object for item in context.timeline.starts[goal.id].scene.held):
+    before = [item for item in context.timeline.starts[goal.id].scene.held if item.object == action.object]
+    if before and not _is_left_to(context, goal, action):
         context.found("attachment", goal, goal.start_s, action.object, f"`{action.object}` is already held")
     if not any(item.object == action.object for item in context.timeline.ends[goal.id].scene.held):
         context.found(
@@ -82,13 +96,26 @@ def _check_attach(context: Context, goal: TimedGoal, action: Attach) -> None:
         )
 
 
+def _is_left_to(context: Context, goal: TimedGoal, action: Attach) -> bool:
+    """Whether the hand that holds the object leaves it next, to the one that takes it."""
+    rows = [context.planned(later) for later in context.plan.goals if later.start_s >= goal.end_s - 1e-9]
+    acts = [row.action for row in rows if row is not None and row.id != goal.id]
+    left = next((act for act in acts if isinstance(act, Detach) and act.object == action.object), None)
+    return left is not None and left.arm != action.arm and left.place == in_hand(action.arm)
+
+
 def _check_detach(context: Context, goal: TimedGoal, planned: MotionGoal, action: Detach) -> None:
     start, end = context.timeline.starts[goal.id], context.timeline.ends[goal.id]
-    held = next((item for item in start.scene.held if item.object == action.object), None)
-    if held is None or held.side != action.arm:
+    holders = {item.side: item for item in start.scene.held if item.object == action.object}
+    held = holders.get(action.arm)
+    if held is None:
         text = f"the {action.arm} hand lets go of `{action.object}`, which it does not hold"
         context.found("attachment", goal, goal.start_s, action.object, text)
         return
+    others = [in_hand(side) for side in holders if side != action.arm]
+    if (others or action.place.endswith(" hand")) and action.place not in others:
+        text = f"`{action.object}` is not left to a hand that holds it"
+        context.found("attachment", goal, goal.start_s, action.object, text)
     symmetric = any(family.id == held.family and family.symmetric for family in context.graph.families)
     _check_left(
         context,

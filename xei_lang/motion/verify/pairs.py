@@ -96,8 +96,8 @@ class Pairs:
         for goal in phase.running:
             granted = self._granted.get(goal.id, frozenset[Pair]())
             pairs += [pair for pair in self._spread(goal.allowed_contacts) if pair in granted]
-        for name, held in self.carriers.items():
-            pairs += [(finger, name) for finger in self.robot.fingers(held.link)]
+        for held in phase.scene.held:
+            pairs += [(finger, held.object) for finger in self.robot.fingers(held.link)]
         return frozenset([*pairs, *((b, a) for a, b in pairs)])
 
     def _spread(self, contacts: tuple[Pair, ...]) -> frozenset[Pair]:

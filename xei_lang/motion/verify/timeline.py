@@ -123,8 +123,8 @@ class _Walk:
         bases = {epoch.index: epoch.T_world_base for epoch in graph.epochs}
         self.T_world_base = bases.get(self.epoch, world.robot.T_world_base)
         self.T_world = {item.name: world.T_world_object(item.name) for item in world.objects}
-        self.held: dict[str, Held] = {}
-        self.links = _stated_links(plan)
+        self.held: dict[tuple[str, Side], Held] = {}
+        self.links = _stated_links(plan, robot, self.tools)
         self.motions = {goal.id: Motion.of(goal.knots) for goal in plan.goals if goal.knots is not None}
         self.starts: dict[str, Moment] = {}
         self.ends: dict[str, Moment] = {}
@@ -170,13 +170,15 @@ class _Walk:
             self.T_world_base = action.T_world_base
             self._let_follow()
         elif isinstance(action, Attach) and action.object in self.T_world:
-            link = self.links.get((goal.id, action.object), self.tools[action.arm])
+            self._let_follow()
+            link = self.links.get((goal.id, action.object, action.arm), self.tools[action.arm])
             T_base_object = self.T_world_base.inverse() @ self.T_world[action.object]
             pose = self.robot.pose(self.q, link).inverse() @ T_base_object
-            self.held[action.object] = Held(action.object, link, pose, action.arm, action.family)
-        elif isinstance(action, Detach) and action.object in self.held:
+            held = Held(action.object, link, pose, action.arm, action.family)
+            self.held[action.object, action.arm] = held
+        elif isinstance(action, Detach) and (action.object, action.arm) in self.held:
             self._let_follow()
-            del self.held[action.object]
+            del self.held[action.object, action.arm]
         else:
             return
         self.scene, self.new_scene = self._scene(), True
@@ -221,11 +223,19 @@ def _merged(times: list[float]) -> list[float]:
     return merged
 
 
-def _stated_links(plan: TimedPlan) -> dict[tuple[str, str], str]:
-    """For every goal and object, the link that the plan next says carries the object."""
-    links: dict[tuple[str, str], str] = {}
-    following: dict[str, str] = {}
+def _stated_links(
+    plan: TimedPlan, robot: Robot, tools: Mapping[Side, str]
+) -> dict[tuple[str, str, Side], str]:
+    """For every goal, object and arm, the link of that arm that the plan next says carries the object."""
+    links: dict[tuple[str, str, Side], str] = {}
+    following: dict[tuple[str, Side], str] = {}
     for goal in reversed(plan.goals):
-        following.update((item.object, item.link) for item in goal.attached)
-        links.update(((goal.id, name), link) for name, link in following.items())
+        following.update(((item.object, _side(robot, tools, item.link)), item.link) for item in goal.attached)
+        links.update(((goal.id, *key), link) for key, link in following.items())
     return links
+
+
+def _side(robot: Robot, tools: Mapping[Side, str], link: str) -> Side:
+    """The arm that a link belongs to: the one whose tool shares most joints with it."""
+    columns = set(robot.columns(link)) if link in robot.links else set[int]()
+    return max(sorted(tools), key=lambda side: len(columns.intersection(robot.columns(tools[side]))))

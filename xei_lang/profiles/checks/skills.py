@@ -41,6 +41,10 @@ POINTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
             "shake_above",
             "shake_left",
             "shake_right",
+            "handover_hold",
+            "handover_pregrasp",
+            "handover_grasp",
+            "handover_retreat",
         ),
         "Place": (
             "tip_above",
@@ -222,7 +226,7 @@ def _known(profile: Profile, skill: SkillSpec, step: TemplateStep, field: str) -
         heights = _of_args(args, HEIGHTS) if field == "height" else []
         return [*args, *heights, *OPERATION_PARAMETERS, *(item.name for item in skill.parameters)]
     if field == "at" and step.kind == "detach":
-        return of_type["Place"]
+        return [*of_type["Place"], *of_type["Arm"]]
     if field == "at":
         return _of_args(args, POINTS)
     if field == "frame":

@@ -78,8 +78,8 @@ class DryRun:
     def _act(self, goal: MotionGoal, timed: TimedGoal) -> str:
         match goal.action:
             case Attach(object=name, arm=arm):
-                if arm in self.holding or name in self.holding.values():
-                    return f"`{name}` cannot be taken: a hand is full"
+                if arm in self.holding:
+                    return f"`{name}` cannot be taken: the {arm} hand is full"
                 self.holding[arm] = name
             case Detach(object=name, arm=arm):
                 if self.holding.pop(arm, None) != name:
