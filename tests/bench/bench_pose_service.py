@@ -1,7 +1,7 @@
 """Tables and racks grounded from rendered pixels through the pose service: accuracy, and what HTTP adds.
 
-Run by hand: `python tests/bench/bench_pose_service.py` (20 pictures); `--small` (1 picture) only shows that it
-still runs. Pictures are 1280 x 720, rendered by MuJoCo, with the second rack pushed about by up to 15 mm and
+Run by hand: `python tests/bench/bench_pose_service.py` (20 pictures); `--small` (1 picture) only shows that
+it still runs. Pictures are 1280 x 720, rendered by MuJoCo, with the second rack pushed about by up to 15 mm and
 3 degrees. The baseline of a round trip is the service's own time for the same request.
 """
 
