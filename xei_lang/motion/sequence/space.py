@@ -42,7 +42,7 @@ def scene_of(
 
     Scenes of equal content are one scene: compiling one takes longer than asking it a hundred questions.
     """
-    hands = {
+    hands: dict[str, Carried] = {
         held.object: (side, held.object, held.T_tool_object)
         for side, held in sorted(snapshot.held.items())
         if side != aside and held.member != UNCHOSEN

@@ -7,9 +7,10 @@ from itertools import combinations
 
 from xei_lang.ir.geometry import Pose
 from xei_lang.ir.goals import Attach, Detach, MotionGoal, in_hand
+from xei_lang.ir.skill_plan import Side
 from xei_lang.ir.timed import TimedGoal
 from xei_lang.motion.verify.context import Context, pose_error
-from xei_lang.motion.verify.timeline import Moment
+from xei_lang.motion.verify.timeline import Held, Moment
 
 
 def check_hands(context: Context) -> None:
@@ -106,7 +107,7 @@ def _is_left_to(context: Context, goal: TimedGoal, action: Attach) -> bool:
 
 def _check_detach(context: Context, goal: TimedGoal, planned: MotionGoal, action: Detach) -> None:
     start, end = context.timeline.starts[goal.id], context.timeline.ends[goal.id]
-    holders = {item.side: item for item in start.scene.held if item.object == action.object}
+    holders: dict[Side, Held] = {item.side: item for item in start.scene.held if item.object == action.object}
     held = holders.get(action.arm)
     if held is None:
         text = f"the {action.arm} hand lets go of `{action.object}`, which it does not hold"
