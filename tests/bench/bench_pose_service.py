@@ -1,8 +1,8 @@
 """Tables and racks grounded from rendered pixels through the pose service: accuracy, and what HTTP adds.
 
 Run by hand: `python tests/bench/bench_pose_service.py` (20 pictures); `--small` (1 picture) only shows that
-it still runs. Pictures are 1280 x 720, rendered by MuJoCo, with the second rack pushed about by up to 15 mm and
-3 degrees. The baseline of a round trip is the service's own time for the same request.
+it still runs. Pictures are 1280 x 720, rendered by MuJoCo, with the second rack pushed about by up to 15 mm
+and 3 degrees. The baseline of a round trip is the service's own time for the same request.
 """
 
 from __future__ import annotations
@@ -77,9 +77,7 @@ def main(count: int) -> None:
             f"{name:<8} believed {len(errors):3}/{count}   at most {worst[0]:.3f} mm {worst[1]:.4f} deg off"
         )
     round_trip, own, held = np.median(times_ms, axis=0)
-    print(
-        f"round trip {round_trip:.0f} ms, of which the service {own:.0f} ms; held against the picture {held:.0f} ms"
-    )
+    print(f"round trip {round_trip:.0f} ms, {own:.0f} ms of it the service; held against it {held:.0f} ms")
 
 
 if __name__ == "__main__":
