@@ -29,6 +29,7 @@ from xei_lang.ir.goals import (
     Wait,
     in_hand,
 )
+from xei_lang.ir.skill_plan import Side
 from xei_lang.ir.verify_runs import run_problems
 from xei_lang.ir.verify_tool_paths import path_problems
 
@@ -187,7 +188,7 @@ def _hands(graph: MotionGoalGraph) -> Iterator[str]:
     """Attach and detach in turn for each arm, of one object. Only where it is left to the other hand may both
     hold it, and then nothing but jaws moves.
     """
-    held: dict[str, Attach] = {}
+    held: dict[Side, Attach] = {}
     for index, goal in enumerate(graph.goals):
         action = goal.action
         shared = len({item.object for item in held.values()}) < len(held)
@@ -196,7 +197,9 @@ def _hands(graph: MotionGoalGraph) -> Iterator[str]:
         if isinstance(action, Attach):
             if action.arm in held:
                 yield f"goal `{goal.id}`: the {action.arm} hand already holds `{held[action.arm].object}`"
-            other = next((arm for arm, item in held.items() if item.object == action.object), None)
+            other: Side | None = next(
+                (arm for arm, item in held.items() if item.object == action.object), None
+            )
             if other is not None and not _is_left(graph, index, other, action):
                 yield f"goal `{goal.id}`: `{action.object}` is already in a hand"
             held[action.arm] = action
@@ -208,12 +211,12 @@ def _hands(graph: MotionGoalGraph) -> Iterator[str]:
             if action.place not in holders and (holders or action.place.endswith(" hand")):
                 yield f"goal `{goal.id}`: `{action.object}` is not left where a hand holds it"
         elif isinstance(action, MoveTo) and isinstance(action.target, ToolTarget):
-            found = held.get(action.arm or "")
+            found = held.get(action.arm) if action.arm else None
             if found is not None and found.family != action.target.family:
                 yield f"goal `{goal.id}`: it aims by another family than the one it holds by"
 
 
-def _is_left(graph: MotionGoalGraph, index: int, giver: str, taken: Attach) -> bool:
+def _is_left(graph: MotionGoalGraph, index: int, giver: Side, taken: Attach) -> bool:
     """Whether the next detach of an object is by the hand that held it first, to the one that takes it."""
     later = (goal.action for goal in graph.goals[index + 1 :])
     found = next((act for act in later if isinstance(act, Detach) and act.object == taken.object), None)
