@@ -15,7 +15,10 @@ from xei_lang.check.binding import CheckOptions
 from xei_lang.check.context import Context, make_context
 from xei_lang.check.plan_file.facts import check_facts
 from xei_lang.check.plan_file.in_json import first_ones, in_json
+from xei_lang.check.plan_file.meanwhile import check_meanwhile
 from xei_lang.check.plan_file.order import check_bounds, check_references, in_order
+from xei_lang.check.plan_file.overlaps import check_overlaps
+from xei_lang.check.plan_file.precedence import precedence
 from xei_lang.check.plan_file.steps import StepChecker
 from xei_lang.check.plan_file.works import check_works
 from xei_lang.check.report import Reporter
@@ -89,6 +92,10 @@ def check_plan(
     check_facts(text.root, context)
     order = in_order(plan.steps, text.root, reporter)
     steps = StepChecker(context, source, text.root).check(plan, order)
+    known = precedence(steps)
+    if known is not None:
+        check_overlaps(known, text.root, context.registry, reporter)
+        check_meanwhile(known, text.root, context.registry, reporter)
     found = (*said, *reporter.diagnostics, *context.reporter.diagnostics)
     diagnostics = first_ones(in_json(item, source) for item in found)
     if has_errors(diagnostics):
