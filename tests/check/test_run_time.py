@@ -317,3 +317,29 @@ def test_a_plan_does_what_the_protocol_says_whatever_is_read(
     with suppress(Stopped):
         _run(program, left.pop(0), left, did)
     assert _run_plan(plan, list(readings)) == did
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "third", "count"),
+    [
+        ("left", "right", "", 1),
+        ("left", "", "right", 1),
+        ("left", "right", "right", 1),
+        ("left", "left", "right", 1),
+        ("left", "left", "left", 0),
+        ("stop", "left", "right", 1),
+        ("stop", "left", "left", 0),
+    ],
+)
+def test_ways_of_one_choice_with_different_hands_are_one_mistake(
+    first: str, second: str, third: str, count: int
+) -> None:
+    ways = [
+        'stop "enough"' if way == "stop" else f"pick(object=tube_1, arm={way})" if way else "wait 1 s"
+        for way in (first, second, third)
+    ]
+    body = (
+        "measure od: Float = read(object=tube_2)\n"
+        f"if od < 1 {{ {ways[0]} }} else if od < 2 {{ {ways[1]} }} else {{ {ways[2]} }}\nwait 1 s"
+    )
+    assert codes(body) == ["XEI0353"] * count

@@ -19,23 +19,25 @@ if TYPE_CHECKING:
     from xei_lang.check.expand import Expander
 
 
-def choice(expander: Expander, step: Step, node: If, scope: Scope, where: Where) -> None:
-    """Expand the branch that is taken, or both where that is not known."""
+def choice(expander: Expander, step: Step, node: If, scope: Scope, where: Where) -> bool:
+    """Expand the branch that is taken, or both where that is not known; whether it was reported that the ways
+    through it leave different hands.
+    """
     value = condition(expander, node.condition, "`if`", scope)
     if isinstance(value, Undecided):
         so = Condition(value.formula, value.needs, node.condition.span)
         not_so = Condition(negated(value).formula, value.needs, node.condition.span)
-        _both(expander, step, node, so, not_so, scope=scope, where=where)
-    elif value is POISON:
+        return _both(expander, step, node, so, not_so, scope=scope, where=where)
+    if value is POISON:
         words, at = expander.context.words(node.condition.span), node.condition.span
         so, not_so = Condition(words, (), at), Condition(f"not ({words})", (), at)
-        _both(expander, step, node, so, not_so, scope=scope, where=where)
-    elif value:
+        return _both(expander, step, node, so, not_so, scope=scope, where=where)
+    if value:
         expander.named_block(step, node.body, scope, where)
         _skip(expander, node.otherwise, scope)
-    else:
-        expander.skip(node.body, scope)
-        _otherwise(expander, step, node, scope, where)
+        return False
+    expander.skip(node.body, scope)
+    return _otherwise(expander, step, node, scope, where)
 
 
 def condition(
@@ -60,19 +62,20 @@ def condition(
 
 def _both(
     expander: Expander, step: Step, node: If, so: Condition, not_so: Condition, *, scope: Scope, where: Where
-) -> None:
+) -> bool:
     plan, name = expander.plan, where.path(step)
     before, tails = expander.state.copy(), plan.tails
     expander.named_block(step, node.body, scope, where.in_branch(f"{name}.then").if_so(so))
     after_first, first_tails = expander.state, plan.tails
     expander.state, plan.tails = before, tails
-    _otherwise(expander, step, node, scope, where.in_branch(f"{name}.else").if_so(not_so))
-    if so.needs and hands_differ(
-        expander, after_first, end_of(node.body), expander.state, _end_of_else(node)
-    ):
+    told = _otherwise(expander, step, node, scope, where.in_branch(f"{name}.else").if_so(not_so))
+    if so.needs and not told:
+        told = hands_differ(expander, after_first, end_of(node.body), expander.state, _end_of_else(node))
+    if told and so.needs and after_first.ended is None:
         expander.state = after_first
     expander.state = after_first.join(expander.state)
     plan.tails = tuple(dict.fromkeys((*first_tails, *plan.tails)))
+    return told
 
 
 def hands_differ(expander: Expander, first: State, at: Span, second: State, other: Span) -> bool:
@@ -122,11 +125,12 @@ def _end_of_else(node: If) -> Span:
     return end_of(last.body if isinstance(last, If) else last)
 
 
-def _otherwise(expander: Expander, step: Step, node: If, scope: Scope, where: Where) -> None:
+def _otherwise(expander: Expander, step: Step, node: If, scope: Scope, where: Where) -> bool:
     if isinstance(node.otherwise, If):
-        choice(expander, step, node.otherwise, scope, where)
-    elif isinstance(node.otherwise, Block):
+        return choice(expander, step, node.otherwise, scope, where)
+    if isinstance(node.otherwise, Block):
         expander.named_block(step, node.otherwise, scope, where)
+    return False
 
 
 def _skip(expander: Expander, node: If | Block | None, scope: Scope) -> None:
