@@ -72,6 +72,34 @@ def test_a_mistake_in_a_table_is_told_once(lab: Path) -> None:
     assert found(lab) == [("many/t.csv", "XEI0124")]
 
 
+def linked(lab: Path, *links: str) -> None:
+    """Files that each import others and can be imported: `ab` lets a import b."""
+    names = sorted({name for link in links for name in link})
+    for name in names:
+        lines = [f'import "{link[1]}.xei"\n' for link in links if link[0] == name]
+        rest = f"\nprocedure rest_{name}() {{\n  wait 1 s\n}}\n"
+        write(lab, **{name: "".join(lines) + GOOD + rest})
+
+
+@pytest.mark.parametrize(
+    ("links", "circles"),
+    [
+        (["ab", "ba"], 1),
+        (["ab", "bc", "ca", "da", "eb"], 1),
+        (["aa", "ba"], 1),
+        (["ab", "ba", "bc", "cb"], 2),
+        (["ab", "ba", "cd", "dc"], 2),
+    ],
+)
+def test_a_circle_of_imports_is_told_once(lab: Path, links: list[str], circles: int) -> None:
+    linked(lab, *links)
+    said = found(lab)
+    assert [code for _, code in said] == ["XEI0121"] * circles
+    assert found(lab) == said  # from the cache of results
+    assert found(lab, "many", "--jobs", "2", "--no-cache") == said
+    assert found(lab, "many/b.xei")
+
+
 def test_equal_mistakes_in_two_files_are_two(lab: Path) -> None:
     write(lab, a=GOOD.replace("1 s", "1 mL"), b=GOOD.replace("1 s", "1 mL"))
     assert [file for file, _ in found(lab)] == ["many/a.xei", "many/b.xei"]
