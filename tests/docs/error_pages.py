@@ -8,7 +8,7 @@ A page has the code and its title from the catalogue, what it means, then `## Wh
   stands for it;
 - a line "In a file `name.csv`:" before a `csv` or `xei` block writes it under that name;
 - a line "In `usage_profile.yaml`:" before a `diff` block changes that file in a copy of the bench's profile;
-- a line "In a file `name`:" before a `text` block writes it, too; in a scene file, `...` stands for the digest
+- a line "In a file `name`:" before a `text` block writes it, too; in a scene file, `...` is the digest
   of the bench's objects;
 - a `json` block is a plan, `plan.json`, and is checked as `xei check plan.json` does;
 - a `yaml` or `xml` block in a fix shows lines that the bench's profile has;
@@ -72,8 +72,8 @@ class Section:
 
     changes: tuple[Change, ...]
     files: dict[str, str]
-    """Its `xei`, `csv` and `json` blocks by their names, in their order; the last protocol, or the plan, is what
-    is checked.
+    """Its `xei`, `csv` and `json` blocks by their names, in their order; the last protocol, or the plan, is
+    what is checked.
     """
     profile_lines: tuple[str, ...]
     """Blocks of YAML or XML, which show lines as the bench has them."""

@@ -25,7 +25,10 @@ def refused(body: str) -> list[tuple[str, str]]:
     [
         (MEASURE, [MEASURE]),
         (f"{MEASURE}\nif warmth > 30 degC {{ wait 1 s }} else {{ wait 2 s }}", ["warmth > 30 degC"]),
-        (f"repeat 3 times until warmth > 30 degC {{ {MEASURE} }} else {{ stop \"x\" }}", ["warmth > 30 degC"]),
+        (
+            f'repeat 3 times until warmth > 30 degC {{ {MEASURE} }} else {{ stop "x" }}',
+            ["warmth > 30 degC"],
+        ),
         (f"{MEASURE}\nlet t = (warmth - 10 degC) * 1 s / (1 K)\nwait t", ["t"]),
         (f"{MEASURE}\nrequire warmth > 30 degC", ["warmth > 30 degC"]),
         ("require volume(tube_1) > 1 mL", ["volume(tube_1) > 1 mL"]),

@@ -21,7 +21,7 @@ ENDS: tuple[StepKind, ...] = ("await", "stop", "leave", "pause", "resume")
 
 
 def start(task: Task) -> tuple[Draft, ...]:
-    """The goals of a start: what begins the work; the last command to an instrument among it begins the run."""
+    """The goals of a start: what begins the work; its last command to an instrument begins the run."""
     drafts = list(expand(task, parts(task.spec.template)[0]))
     found = [index for index, draft in enumerate(drafts) if isinstance(draft.action, Instrument)]
     if not found:

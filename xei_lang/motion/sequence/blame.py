@@ -75,7 +75,16 @@ def _follows(before: MotionGoal | None, move: MoveTo) -> bool:
     action = before.action
     if isinstance(action, MoveTo):
         return action.arm == move.arm and isinstance(action.target, ToolTarget)
-    return before.kind in ("open_gripper", "close_gripper", "attach", "detach", "wait", "set_do", "confirm", "instrument")
+    return before.kind in (
+        "open_gripper",
+        "close_gripper",
+        "attach",
+        "detach",
+        "wait",
+        "set_do",
+        "confirm",
+        "instrument",
+    )
 
 
 def _out_of_range(
