@@ -53,3 +53,45 @@ def test_a_requirement_follows_what_steps_do() -> None:
     assert ids(body) == ["pick#1"]
     assert ids("place(object=tube_1, on=table)\nrequire at(tube_1) == table") == ["place#1"]
     assert codes("require holding(left) == tube_1\nwait 1 s") == ["XEI0331"]
+
+
+def _pose(x: str = "0.3 m", z: str = "10 cm", frame: str = "world") -> str:
+    return f'pose(x={x}, y=0 m, z={z}, frame="{frame}")'
+
+
+COUNT = "param n: Int = 2 in 1 .. 3"
+HEIGHT = "param z: Length = 10 cm in 5 cm .. 20 cm"
+
+
+@pytest.mark.parametrize(
+    ("condition", "checked", "compiled"),
+    [
+        (f"{_pose(z='z')} == {_pose()}", None, True),
+        (f"{_pose(z='z')} != {_pose()}", None, False),
+        (f"[{_pose(z='z')}] == [{_pose()}]", None, True),
+        (f"{_pose(z='z')} == {_pose(z='12 cm')}", None, False),
+        (f"{_pose(z='z')} == {_pose(z='30 cm')}", False, False),
+        (f"{_pose(z='z')} == {_pose(x='0.4 m')}", False, False),
+        (f"{_pose(z='z')} == {_pose(z='z')}", True, True),
+        (f"{_pose(z='z + 1 cm')} == {_pose(z='z')}", False, False),
+        ("[n, 1] == [2, 1]", None, True),
+        ("[n, 1] == [2, 2]", False, False),
+        ("[n] == [n]", True, True),
+    ],
+)
+def test_what_a_parameter_leaves_open_is_not_decided(
+    condition: str, checked: bool | None, compiled: bool
+) -> None:
+    """The default of a parameter stands for it where a plan is compiled, and only there."""
+    body = f"{COUNT if '[n' in condition else HEIGHT}\nrequire {condition}\nwait 1 s"
+    left_open = codes(body, open_bindings=True)
+    assert left_open == (["XEI0331"] if checked is False else [])
+    assert checked is False or len(ids(body, open_bindings=True)) == (2 if checked is None else 1)
+    assert codes(body) == ([] if compiled else ["XEI0331"])
+
+
+def test_an_open_pose_is_its_nominal_one_in_the_plan() -> None:
+    body = f"{HEIGHT}\npick(object=tube_1)\nhover(object=tube_1, at={_pose(z='z')})"
+    checked, compiled = (plan_of(protocol(body), open_bindings=is_open) for is_open in (True, False))
+    assert checked.steps[1].arg("at") == compiled.steps[1].arg("at")
+    assert checked.steps[1].arg("at") is not None

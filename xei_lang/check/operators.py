@@ -123,7 +123,7 @@ class Operators:
         if _is_open(left) or _is_open(right):
             return POISON
         answer = same(left, right, lambda count: self._budget.spend(count, node.span))
-        return POISON if self._budget.is_spent else answer == (node.op == "==")
+        return POISON if self._budget.is_spent or answer is None else answer == (node.op == "==")
 
     def _numbers(self, node: Binary | Compare, scope: Scope, apply: Callable[[Val, Val], Val]) -> Val:
         left = self._evaluate(node.left, scope)

@@ -10,7 +10,7 @@ from xei_lang.check.registry import Registry
 from xei_lang.check.report import Reporter, guess, listed, meant, replace
 from xei_lang.check.run_time import known_now
 from xei_lang.check.scope import Scope
-from xei_lang.check.values import POISON, Val, nominal
+from xei_lang.check.values import POISON, Interval, OpenPose, Val
 from xei_lang.diagnostics import did_you_mean
 from xei_lang.ir.skill_plan import PoseIn
 from xei_lang.quantity import Quantity, quantity
@@ -40,22 +40,17 @@ class Poses:
             for arg in node.args if given is None else ():
                 self._evaluate(arg.value, scope)
             return POISON
-        parts = [self._part(name, given.get(name), scope) for name in (*_LENGTHS, *_ANGLES)]
+        found = [self._part(name, given.get(name), scope) for name in (*_LENGTHS, *_ANGLES)]
         frame = self._frame(given["frame"].value, scope)
-        x, y, z, roll, pitch, yaw = parts
-        if (
-            frame is None
-            or x is None
-            or y is None
-            or z is None
-            or roll is None
-            or pitch is None
-            or yaw is None
-        ):
+        parts = tuple(part for part in found if part is not None)
+        if frame is None or len(parts) < len(found):
             return POISON
-        return PoseIn(frame, (x, y, z), (roll, pitch, yaw))
+        x, y, z, roll, pitch, yaw = (_nominal(part) for part in parts)
+        pose = PoseIn(frame, (x, y, z), (roll, pitch, yaw))
+        is_open = any(isinstance(part, Interval) for part in parts)
+        return OpenPose(pose, parts) if is_open else pose
 
-    def _part(self, name: str, arg: Arg | None, scope: Scope) -> Quantity | None:
+    def _part(self, name: str, arg: Arg | None, scope: Scope) -> Quantity | Interval | None:
         if arg is None:
             return _NO_TURN
         type_ = "Length" if name in _LENGTHS else "Angle"
@@ -63,8 +58,8 @@ class Poses:
         value = known_now(self._evaluate(arg.value, scope), expected.what, arg.value.span, self._reporter)
         if value is POISON:
             return None
-        value = nominal(quantity_value(value, expected, arg.value, self._reporter))
-        return value if isinstance(value, Quantity) else None
+        value = quantity_value(value, expected, arg.value, self._reporter)
+        return value if isinstance(value, (Quantity, Interval)) else None
 
     def _frame(self, node: Expression, scope: Scope) -> str | None:
         if isinstance(node, Name) and scope.find(node.id) is None:
@@ -94,3 +89,9 @@ class Poses:
             )
             help, fix = meant(near) or (f"frames are {listed(frames, 12)}",), guess(node.span, near)
         self._reporter.report("XEI0202", message, node.span, label, help=help, fix=fix)
+
+
+def _nominal(part: Quantity | Interval) -> Quantity:
+    value = part.nominal if isinstance(part, Interval) else part
+    assert isinstance(value, Quantity)  # as `quantity_value` sees to for both ends
+    return value

@@ -19,6 +19,7 @@ from xei_lang.check.values import (
     Interval,
     ListValue,
     ObjectValue,
+    OpenPose,
     PlaceValue,
     Poison,
     Undecided,
@@ -76,7 +77,7 @@ class Types:
                 return value
             case "Station" if isinstance(value, StationRef):
                 return value
-            case "Pose" if isinstance(value, PoseIn):
+            case "Pose" if isinstance(value, (PoseIn, OpenPose)):
                 return value
             case _:
                 return self._wrong(value, expected, node)
@@ -173,7 +174,7 @@ class Types:
         return Word(chosen) if chosen in expected.choices else self._wrong(value, expected, node)
 
     def _wrong(self, value: Val, expected: Expectation, node: Expression) -> Val:
-        if isinstance(value, PoseIn) and expected.type == "Place":
+        if isinstance(value, (PoseIn, OpenPose)) and expected.type == "Place":
             help_ = (
                 "a place is part of an object, such as a slot or a spot; a pose says nothing of what is there"
             )

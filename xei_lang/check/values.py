@@ -1,8 +1,9 @@
 """What an expression can be worth while a protocol is checked.
 
-Everything is decided here and now, but for three kinds: an `Interval` (a ranged parameter that is still open,
-or what a measurement gives), `Undecided` (a condition on that), and `POISON` (something wrong that was
-reported already, or open without bounds), which fits everywhere and says nothing.
+Everything is decided here and now, but for four kinds: an `Interval` (a ranged parameter that is still open,
+or what a measurement gives), an `OpenPose` (one with such parts), `Undecided` (a condition on that), and
+`POISON` (something wrong that was reported already, or open without bounds), which fits everywhere and says
+nothing.
 """
 
 from __future__ import annotations
@@ -58,6 +59,14 @@ class Interval:
     formula: str = ""
     needs: tuple[str, ...] = ()
     shares: Shares = ()
+
+
+@dataclass(frozen=True, slots=True)
+class OpenPose:
+    """A pose with open ones among its `parts` (x, y, z, roll, pitch, yaw); the plan has its `nominal`."""
+
+    nominal: PoseIn
+    parts: tuple[Quantity | Interval, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,6 +139,7 @@ Val = (
     | PlaceValue
     | StationRef
     | PoseIn
+    | OpenPose
     | ListValue
     | RecordValue
     | Interval
@@ -162,6 +172,8 @@ def show(value: Val) -> str:  # noqa: PLR0911, PLR0912 one return for each kind 
             return place_text(value.ref)
         case PoseIn():
             return written_pose(value)
+        case OpenPose():
+            return written_pose(value.nominal)
         case RecordValue():
             shown = [f"{name}: {_part(cell)}" for name, cell in list(value.fields.items())[:3]]
             return f"({', '.join(shown)}{', ...' if len(value.fields) > 3 else ''})"
@@ -205,7 +217,7 @@ def kind(value: Val) -> str:  # noqa: PLR0911, PLR0912 one return for each kind 
             return "a place"
         case StationRef():
             return "a station"
-        case PoseIn():
+        case PoseIn() | OpenPose():
             return "a pose"
         case TableValue():
             return "a table"
@@ -228,7 +240,7 @@ def a(noun: str) -> str:
 
 def nominal(value: Val) -> Val:
     """The one value that stands for an open one, every other value being itself."""
-    return value.nominal if isinstance(value, Interval) else value
+    return value.nominal if isinstance(value, (Interval, OpenPose)) else value
 
 
 def to_plan(value: Val) -> Value:  # noqa: PLR0911 one return for each kind of value
@@ -248,7 +260,7 @@ def to_plan(value: Val) -> Value:  # noqa: PLR0911 one return for each kind of v
             return tuple(to_plan(cell) for cell in value.fields.values())
         case Interval() if value.needs:
             return RunValue(value.formula, value.needs, _bound(value.lower), _bound(value.upper))
-        case Interval():
+        case Interval() | OpenPose():
             return to_plan(value.nominal)
         case Undecided():
             return RunValue(value.formula, value.needs, False, True)
