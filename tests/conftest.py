@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -13,6 +15,10 @@ from tests.mdtest import run_markdown
 # Deadlines measure the machine, not the code; a fixed seed lets a failure be had again.
 settings.register_profile("xei", deadline=None, derandomize=True)
 settings.load_profile("xei")
+
+# Hundreds of tests start the program: each start would compile all of its modules anew.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
 
 GOLDEN = Path(__file__).parent / "golden"
 
