@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from xei_lang.diagnostics import Diagnostics, Source, has_errors
+from xei_lang.record import Shown
 
 if TYPE_CHECKING:
     from xei_lang.inputs import Outside
@@ -28,8 +29,8 @@ Progress = Callable[[str, int, int], None]
 """Called by long passes with the pass's name, how much is done and how much there is."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Request:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Request(Shown):
     """Everything that a compilation is a function of.
 
     `outside` is given where several requests share what they read; else each reads for itself. `observed` is
@@ -51,8 +52,8 @@ class Request:
     observed: tuple[Observations, ...] = ()
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Handoffs:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Handoffs(Shown):
     """The representations made so far; each pass fills in one."""
 
     module: Module | None = None
@@ -65,8 +66,8 @@ class Handoffs:
     verified: Checked | None = None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Pass:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Pass(Shown):
     """One step of the compilation.
 
     `name` is what `--print-after` takes, `adds` the field of `Handoffs` that must be there once it has run.
@@ -79,8 +80,8 @@ class Pass:
     run: Callable[[Request, Handoffs], tuple[Handoffs, Diagnostics]]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class PassResult:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class PassResult(Shown):
     """What a pass did, for those who watch: printing, timing, verification between passes."""
 
     pass_name: str
@@ -90,8 +91,8 @@ class PassResult:
     failed: bool
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Outcome:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Outcome(Shown):
     """The end of a compilation: what was made, everything that was said, and the pass that stopped it."""
 
     made: Handoffs

@@ -27,14 +27,15 @@ from xei_lang.check.values import (
 from xei_lang.diagnostics import Diagnostics, Label, Source, Sources, Span, did_you_mean
 from xei_lang.diagnostics.options import option_value
 from xei_lang.quantity import DimensionError
+from xei_lang.record import Shown
 from xei_lang.syntax.ast import Module, ObjectDecl, Param, Range
 from xei_lang.syntax.loading import Files
 
 _NOTHING: Mapping[str, str] = MappingProxyType({})
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class CheckOptions:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class CheckOptions(Shown):
     """How to check.
 
     `bindings` gives objects (`--bind rack=rack_1`), `params` the text of values (`--param volume="2 mL"`).

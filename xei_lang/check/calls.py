@@ -33,12 +33,13 @@ from xei_lang.diagnostics import Span
 from xei_lang.ir.skill_plan import Argument, Value
 from xei_lang.profiles.model import ArgSpec, SkillSpec
 from xei_lang.quantity import Quantity, QuantityError, parse_quantity
+from xei_lang.record import Shown
 from xei_lang.syntax.ast import Arg, Call, Expression
 from xei_lang.world.places import accepts, place_text
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class CheckedCall:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class CheckedCall(Shown):
     """A call that holds: its skill, its effects, and its arguments in the skill's order."""
 
     skill: SkillSpec
@@ -62,15 +63,15 @@ class CheckedCall:
         return {argument.name: argument.value for argument in self.arguments}
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Formal:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class _Formal(Shown):
     spec: ArgSpec
     expected: Expectation
     is_amount: bool
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Prepared:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class _Prepared(Shown):
     skill: SkillSpec
     signature: Signature
     formals: tuple[_Formal, ...]

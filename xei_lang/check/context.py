@@ -19,11 +19,12 @@ from xei_lang.check.types import Types
 from xei_lang.check.units import Unit, load_units
 from xei_lang.diagnostics import Source, Span
 from xei_lang.profiles.model import Profile
+from xei_lang.record import Shown
 from xei_lang.syntax.ast import Module, Name, Procedure
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Context:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Context(Shown):
     """What every part of the expansion uses."""
 
     units: Mapping[str, Unit]

@@ -10,6 +10,7 @@ from xei_lang.check.state import EITHER, NOTHING, State
 from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, Value
 from xei_lang.profiles.instruments import instrument_of
 from xei_lang.profiles.model import SkillSpec
+from xei_lang.record import Shown
 from xei_lang.syntax.ast import (
     Bool,
     CallExpr,
@@ -38,8 +39,8 @@ _OTHER_PARTS = {
 }
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Effect:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Effect(Shown):
     """`variable(subject) := value`, the subject and perhaps the value being names of arguments."""
 
     variable: str

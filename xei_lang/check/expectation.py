@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 from xei_lang.check.values import a
 from xei_lang.diagnostics import Span
+from xei_lang.record import Shown
 from xei_lang.syntax.ast import TypeExpr
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Expectation:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Expectation(Shown):
     """`what` takes a `type`: "`volume` of `pour`" takes a Volume, by the rule written at `rule`.
 
     `lists` counts the `List[...]` around the type; `roles` and `choices` narrow an object and a choice.

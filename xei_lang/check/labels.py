@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 from xei_lang.check.report import Reporter, meant
 from xei_lang.diagnostics import did_you_mean
+from xei_lang.record import Shown
 from xei_lang.syntax.ast import Attr, Expression, Index, Name, Number, Range, StepRef
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Extent:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Extent(Shown):
     """From the first to the last steps that a label covers; several only where some of them may overlap."""
 
     firsts: tuple[str, ...]

@@ -6,11 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from xei_lang.profiles.model import LabObject, Profile, SkillSpec
+from xei_lang.record import Shown
 from xei_lang.syntax.ast import Role, TypeExpr, walk
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Registry:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Registry(Shown):
     """Objects, stations, skills, arms, frames and roles of one profile."""
 
     objects: Mapping[str, LabObject]

@@ -12,11 +12,12 @@ from xei_lang.diagnostics import Span
 from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, Step, Value
 from xei_lang.profiles.instruments import instrument_of
 from xei_lang.profiles.model import SkillSpec
+from xei_lang.record import Shown
 from xei_lang.world.places import place_text
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Touch:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Touch(Shown):
     """A step touches `thing` (in words), and so `held`, which an instrument holds; `how` says why."""
 
     thing: str

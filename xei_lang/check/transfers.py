@@ -14,13 +14,14 @@ from xei_lang.check.volumes import NEVER_SAID, WRONG
 from xei_lang.diagnostics import Label, Span
 from xei_lang.profiles.model import SkillSpec
 from xei_lang.quantity import DimensionError
+from xei_lang.record import Shown
 from xei_lang.syntax.ast import Binary, CallExpr, Expression, Name, Number, QuantityLit, Unary, Update
 
 _VOLUME = "volume"
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Transfer:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Transfer(Shown):
     """`volume(subject) op value`, the subject being the name of an argument."""
 
     subject: str

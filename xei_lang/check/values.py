@@ -20,6 +20,7 @@ from xei_lang.profiles.model import LabObject
 from xei_lang.quantity import Quantity
 from xei_lang.quantity.dimension import NUMBER
 from xei_lang.quantity.text import format_magnitude
+from xei_lang.record import Record, Shown
 from xei_lang.syntax.ast import TypeExpr
 from xei_lang.world.places import place_text
 
@@ -35,8 +36,8 @@ POISON: Final = Poison.POISON
 Numeric = Quantity | int | Fraction
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Unknown:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Unknown(Shown):
     """Something between nothing and all that is not known yet: one for each value that is open by itself."""
 
 
@@ -44,8 +45,8 @@ Shares = tuple[tuple[Unknown, Numeric], ...]
 """How much of a value goes with each unknown, from its lower end to its upper one."""
 
 
-@dataclass(frozen=True, slots=True)
-class Interval:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Interval(Record):
     """A value of which only the bounds are known, ends included; `nominal` stands for it where one is
     needed.
 
@@ -61,24 +62,24 @@ class Interval:
     shares: Shares = ()
 
 
-@dataclass(frozen=True, slots=True)
-class OpenPose:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class OpenPose(Record):
     """A pose with open ones among its `parts` (x, y, z, roll, pitch, yaw); the plan has its `nominal`."""
 
     nominal: PoseIn
     parts: tuple[Quantity | Interval, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Undecided:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Undecided(Record):
     """A Bool that what is measured decides; `formula` and `needs` as an Interval has them."""
 
     formula: str
     needs: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class ObjectValue:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ObjectValue(Record):
     """A registered object; or, with `registered=None`, any object that has the declared roles."""
 
     name: str
@@ -86,8 +87,8 @@ class ObjectValue:
     declared: TypeExpr | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class PlaceValue:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class PlaceValue(Record):
     """A place of an object; what stands in it is asked of the state, where an object is needed."""
 
     owner: ObjectValue
@@ -100,22 +101,22 @@ class PlaceValue:
         return PlaceRef(self.owner.name, self.kind, self.key)
 
 
-@dataclass(frozen=True, slots=True)
-class Word:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Word(Record):
     """A word of an enumeration: an arm, a value of a declared state, a choice of a skill."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class ListValue:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ListValue(Record):
     """A list; a range of a million numbers is one without its members being made."""
 
     items: Sequence[Val]
 
 
-@dataclass(frozen=True, slots=True)
-class RecordValue:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class RecordValue(Record):
     """A row of a table: its cells by the names of their columns."""
 
     fields: Mapping[str, Val]

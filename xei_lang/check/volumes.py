@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from xei_lang.check.values import POISON, Interval, Poison, Val
 from xei_lang.diagnostics import Label
 from xei_lang.quantity import Quantity
+from xei_lang.record import Shown
 
 _MOST_LABELS = 3
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Amount:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Amount(Shown):
     """What a thing holds: a volume, or POISON once it depends on what is not known.
 
     `labels` are the last places that made it so, the newest at the end.

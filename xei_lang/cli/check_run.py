@@ -15,11 +15,12 @@ from xei_lang.diagnostics import Diagnostics, Source
 from xei_lang.diagnostics.plain import Plain, from_plain, to_plain
 from xei_lang.inputs import Inputs, Outside
 from xei_lang.profiles.cache_key import default_cache
+from xei_lang.record import Shown
 from xei_lang.syntax.reading import read_source
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Checked:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Checked(Shown):
     """A file that was checked, by its name in messages.
 
     `text` is the digest of what was read, empty where nothing could be; `source` may be left out where
@@ -33,8 +34,8 @@ class Checked:
     asked: Asked
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Run:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Run(Shown):
     """How files are checked: `jobs` is the number of processes, `progress` is told how many are done."""
 
     options: Options

@@ -7,37 +7,38 @@ from typing import Literal
 
 from xei_lang.diagnostics.catalogue import CATALOGUE
 from xei_lang.diagnostics.span import Span
+from xei_lang.record import Record
 
 Severity = Literal["error", "warning", "info"]
 Applicability = Literal["safe", "unsafe", "display"]
 
 
-@dataclass(frozen=True, slots=True)
-class Label:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Label(Record):
     """A secondary place that matters, and why."""
 
     span: Span
     message: str
 
 
-@dataclass(frozen=True, slots=True)
-class Edit:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Edit(Record):
     """Replace what the span covers by `text`; an empty span inserts."""
 
     span: Span
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Fix:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Fix(Record):
     """A mend: `safe` ones keep the meaning that was intended and may be applied unasked by `xei fix`."""
 
     applicability: Applicability
     edits: tuple[Edit, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Diagnostic:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Diagnostic(Record):
     """What is wrong, where, by which rule, and the way out.
 
     `message` stands alone; `label` is written under the primary span and says expected against found.

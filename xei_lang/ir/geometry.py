@@ -9,6 +9,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from xei_lang.record import Record
+
 Vec3 = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
 
@@ -31,8 +33,8 @@ def _unit(q: Quaternion) -> Quaternion:
     return (x, y, z, w)
 
 
-@dataclass(frozen=True, slots=True)
-class Pose:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Pose(Record):
     """A rigid transform: rotate by `quaternion`, then translate by `position_m`."""
 
     position_m: Vec3 = (0.0, 0.0, 0.0)
@@ -112,30 +114,30 @@ class Pose:
 IDENTITY = Pose()
 
 
-@dataclass(frozen=True, slots=True)
-class Box:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Box(Record):
     """A box centred at its origin; full edge lengths in metres."""
 
     size_m: Vec3
 
 
-@dataclass(frozen=True, slots=True)
-class Cylinder:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Cylinder(Record):
     """A cylinder along z, centred at its origin; metres."""
 
     radius_m: float
     height_m: float
 
 
-@dataclass(frozen=True, slots=True)
-class Sphere:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Sphere(Record):
     """A sphere around its origin; metres."""
 
     radius_m: float
 
 
-@dataclass(frozen=True, slots=True)
-class Capsule:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Capsule(Record):
     """A cylinder along z of `height_m` with a half sphere at each end, centred at its origin; metres."""
 
     radius_m: float
@@ -145,8 +147,8 @@ class Capsule:
 Shape = Box | Cylinder | Sphere | Capsule
 
 
-@dataclass(frozen=True, slots=True)
-class Primitive:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Primitive(Record):
     """One collision primitive of an object, placed in the object's frame."""
 
     shape: Shape

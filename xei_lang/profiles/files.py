@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from xei_lang.diagnostics import Diagnostic, Source, Span
+from xei_lang.record import Shown
 
 DEVELOPMENT = "development_profile.yaml"
 CALIBRATION = "calibration_profile.yaml"
@@ -15,8 +16,8 @@ REGISTRY = "object_registry.yaml"
 MAX_TEXT_BYTES = 2_000_000
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class ProfileFiles:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ProfileFiles(Shown):
     """A profile folder as read: `shown` is its path for messages, `hashes` the SHA-256 of each file below it,
     sorted.
     """

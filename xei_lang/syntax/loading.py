@@ -6,18 +6,19 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from xei_lang.diagnostics import Source
+from xei_lang.record import Shown
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class LoadedFile:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class LoadedFile(Shown):
     """The text of a file, and what tells it from all others however it was named."""
 
     source: Source
     identity: str
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Unusable:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Unusable(Shown):
     """Why a file cannot be had: words that follow its name (`does not exist`), and what may help.
 
     `outside` says that it would lie, or lies, outside of the project folder.

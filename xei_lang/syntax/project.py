@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from xei_lang.diagnostics import Source, did_you_mean
+from xei_lang.record import Shown
 from xei_lang.syntax.loading import LoadedFile, Unusable
 from xei_lang.syntax.reading import read_source
 
@@ -24,8 +25,8 @@ def project_folder(protocol: Path) -> Path:
     return next(marked, own)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class ProjectFiles:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ProjectFiles(Shown):
     """Reads files of the project of one protocol; a file is named in messages as the importing one is."""
 
     protocol: Path
