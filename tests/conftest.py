@@ -20,6 +20,9 @@ settings.load_profile("xei")
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
 
+# Read once, when the first test imports MuJoCo: without a screen, pictures are rendered through EGL.
+os.environ.setdefault("MUJOCO_GL", "egl")
+
 GOLDEN = Path(__file__).parent / "golden"
 
 

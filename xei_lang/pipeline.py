@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from xei_lang.diagnostics import Diagnostics, Source, has_errors
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 
 if TYPE_CHECKING:
     from xei_lang.inputs import Outside
@@ -29,7 +29,7 @@ Progress = Callable[[str, int, int], None]
 """Called by long passes with the pass's name, how much is done and how much there is."""
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Request(Shown):
     """Everything that a compilation is a function of.
 
@@ -52,7 +52,7 @@ class Request(Shown):
     observed: tuple[Observations, ...] = ()
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Handoffs(Shown):
     """The representations made so far; each pass fills in one."""
 
@@ -66,7 +66,7 @@ class Handoffs(Shown):
     verified: Checked | None = None
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Pass(Shown):
     """One step of the compilation.
 
@@ -80,7 +80,7 @@ class Pass(Shown):
     run: Callable[[Request, Handoffs], tuple[Handoffs, Diagnostics]]
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class PassResult(Shown):
     """What a pass did, for those who watch: printing, timing, verification between passes."""
 
@@ -91,7 +91,7 @@ class PassResult(Shown):
     failed: bool
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Outcome(Shown):
     """The end of a compilation: what was made, everything that was said, and the pass that stopped it."""
 

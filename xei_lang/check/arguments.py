@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from xei_lang.check.report import Reporter, insert, listed, meant
 from xei_lang.diagnostics import Edit, Fix, Label, Span, did_you_mean
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 from xei_lang.syntax.ast import Arg, Call
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Signature(Shown):
     """What can be called: `kind` is `skill` or `procedure`; `rule` is its place in a profile, if any."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from types import MappingProxyType
 
 from xei_lang.check import arithmetic
@@ -27,14 +27,14 @@ from xei_lang.check.values import (
 from xei_lang.diagnostics import Diagnostics, Label, Source, Sources, Span, did_you_mean
 from xei_lang.diagnostics.options import option_value
 from xei_lang.quantity import DimensionError
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 from xei_lang.syntax.ast import Module, ObjectDecl, Param, Range
 from xei_lang.syntax.loading import Files
 
 _NOTHING: Mapping[str, str] = MappingProxyType({})
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class CheckOptions(Shown):
     """How to check.
 

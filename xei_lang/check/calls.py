@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 from xei_lang.check import arithmetic
 from xei_lang.check.amounts import Amounts, in_range, is_less_than_nothing, is_nothing
@@ -33,12 +32,12 @@ from xei_lang.diagnostics import Span
 from xei_lang.ir.skill_plan import Argument, Value
 from xei_lang.profiles.model import ArgSpec, SkillSpec
 from xei_lang.quantity import Quantity, QuantityError, parse_quantity
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 from xei_lang.syntax.ast import Arg, Call, Expression
 from xei_lang.world.places import accepts, place_text
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class CheckedCall(Shown):
     """A call that holds: its skill, its effects, and its arguments in the skill's order."""
 
@@ -63,14 +62,14 @@ class CheckedCall(Shown):
         return {argument.name: argument.value for argument in self.arguments}
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class _Formal(Shown):
     spec: ArgSpec
     expected: Expectation
     is_amount: bool
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class _Prepared(Shown):
     skill: SkillSpec
     signature: Signature

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from xei_lang.check.binding import Binder, CheckOptions
 from xei_lang.check.budget import Budget
@@ -19,11 +18,11 @@ from xei_lang.check.types import Types
 from xei_lang.check.units import Unit, load_units
 from xei_lang.diagnostics import Source, Span
 from xei_lang.profiles.model import Profile
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 from xei_lang.syntax.ast import Module, Name, Procedure
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Context(Shown):
     """What every part of the expansion uses."""
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 
 from xei_lang.check.state import EITHER, NOTHING, State
 from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, Value
 from xei_lang.profiles.instruments import instrument_of
 from xei_lang.profiles.model import SkillSpec
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 from xei_lang.syntax.ast import (
     Bool,
     CallExpr,
@@ -39,7 +38,7 @@ _OTHER_PARTS = {
 }
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Effect(Shown):
     """`variable(subject) := value`, the subject and perhaps the value being names of arguments."""
 

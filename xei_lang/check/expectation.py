@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from xei_lang.check.values import a
 from xei_lang.diagnostics import Span
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 from xei_lang.syntax.ast import TypeExpr
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Expectation(Shown):
     """`what` takes a `type`: "`volume` of `pour`" takes a Volume, by the rule written at `rule`.
 

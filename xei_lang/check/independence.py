@@ -17,14 +17,14 @@ from xei_lang.check.touch import held
 from xei_lang.diagnostics import Span
 from xei_lang.ir.skill_plan import Fact, ObjectRef, PlaceRef, Step
 from xei_lang.profiles.model import SkillSpec
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 from xei_lang.world.places import place_text
 
 _ROBOT = ("arm", "gripper", "base", "slide", "io", "person", "perception")
 _BODY = ("_arm", "_gripper", "slide", "perception")
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Use(Shown):
     """A step uses a `thing`; `words` name the thing, `verb` says what is done to it (`used`, `driven`)."""
 

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from xei_lang.check.report import Reporter, meant
 from xei_lang.diagnostics import did_you_mean
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 from xei_lang.syntax.ast import Attr, Expression, Index, Name, Number, Range, StepRef
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Extent(Shown):
     """From the first to the last steps that a label covers; several only where some of them may overlap."""
 

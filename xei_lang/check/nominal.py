@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from xei_lang.check.expectation import Expectation
 from xei_lang.check.values import POISON, ObjectValue, Poison, Val
 from xei_lang.check.volumes import WRONG, Amount
 from xei_lang.diagnostics import Span
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 from xei_lang.syntax.ast import CallExpr, Name
 
 if TYPE_CHECKING:
@@ -17,7 +16,7 @@ if TYPE_CHECKING:
     from xei_lang.check.state import State
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Read(Shown):
     """A volume that was asked for in a branch which may overlap with others."""
 

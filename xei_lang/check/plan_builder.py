@@ -19,13 +19,13 @@ from xei_lang.ir.skill_plan import (
     UnmappedRequest,
 )
 from xei_lang.ir.skill_plan import Step as PlanStep
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 from xei_lang.syntax.ast import Note, Require, Step, Unmapped
 
 _Places = set[tuple[Span, tuple[Call, ...]]]
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Where(Shown):
     """Where in the protocol the checker is.
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from xei_lang.profiles.model import LabObject, Profile, SkillSpec
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 from xei_lang.syntax.ast import Role, TypeExpr, walk
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Registry(Shown):
     """Objects, stations, skills, arms, frames and roles of one profile."""
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
 from xei_lang.check.report import Reporter
 from xei_lang.check.values import POISON, Val
 from xei_lang.diagnostics import Label, Span
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 from xei_lang.syntax.ast import Name
 
 SymbolKind = Literal[
@@ -17,7 +16,7 @@ SymbolKind = Literal[
 _SHOULD_BE_USED = ("object", "parameter", "variable", "table")
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Symbol(Shown):
     """A declared name: what it is worth, and where it was declared."""
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 
 from xei_lang.check.effects import effects_of, moves
 from xei_lang.check.registry import Registry
@@ -12,11 +11,11 @@ from xei_lang.diagnostics import Span
 from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, Step, Value
 from xei_lang.profiles.instruments import instrument_of
 from xei_lang.profiles.model import SkillSpec
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 from xei_lang.world.places import place_text
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Touch(Shown):
     """A step touches `thing` (in words), and so `held`, which an instrument holds; `how` says why."""
 

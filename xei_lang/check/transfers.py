@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import reduce
 from typing import Literal
 
@@ -14,13 +13,13 @@ from xei_lang.check.volumes import NEVER_SAID, WRONG
 from xei_lang.diagnostics import Label, Span
 from xei_lang.profiles.model import SkillSpec
 from xei_lang.quantity import DimensionError
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 from xei_lang.syntax.ast import Binary, CallExpr, Expression, Name, Number, QuantityLit, Unary, Update
 
 _VOLUME = "volume"
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Transfer(Shown):
     """`volume(subject) op value`, the subject being the name of an argument."""
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from xei_lang.check.report import Reporter
 from xei_lang.check.scope import Scope, Usage
 from xei_lang.diagnostics import Diagnostic, Diagnostics, Label, Source, has_errors
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 from xei_lang.syntax.ast import Import, ImportTable, Module, Procedure
 from xei_lang.syntax.loading import Files, LoadedFile, Unusable
 
@@ -19,7 +19,7 @@ MAX_FILES = 200
 MAX_IMPORT_DEPTH = 40
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Unit(Shown):
     """One file. `procedures` are those that a call in it may name, its own and imported ones.
 

@@ -9,7 +9,6 @@ nothing.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 from typing import Final, Literal
@@ -20,7 +19,7 @@ from xei_lang.profiles.model import LabObject
 from xei_lang.quantity import Quantity
 from xei_lang.quantity.dimension import NUMBER
 from xei_lang.quantity.text import format_magnitude
-from xei_lang.record import Record, Shown
+from xei_lang.record import Record, Shown, record
 from xei_lang.syntax.ast import TypeExpr
 from xei_lang.world.places import place_text
 
@@ -36,7 +35,7 @@ POISON: Final = Poison.POISON
 Numeric = Quantity | int | Fraction
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Unknown(Shown):
     """Something between nothing and all that is not known yet: one for each value that is open by itself."""
 
@@ -45,7 +44,7 @@ Shares = tuple[tuple[Unknown, Numeric], ...]
 """How much of a value goes with each unknown, from its lower end to its upper one."""
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Interval(Record):
     """A value of which only the bounds are known, ends included; `nominal` stands for it where one is
     needed.
@@ -62,7 +61,7 @@ class Interval(Record):
     shares: Shares = ()
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class OpenPose(Record):
     """A pose with open ones among its `parts` (x, y, z, roll, pitch, yaw); the plan has its `nominal`."""
 
@@ -70,7 +69,7 @@ class OpenPose(Record):
     parts: tuple[Quantity | Interval, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Undecided(Record):
     """A Bool that what is measured decides; `formula` and `needs` as an Interval has them."""
 
@@ -78,7 +77,7 @@ class Undecided(Record):
     needs: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class ObjectValue(Record):
     """A registered object; or, with `registered=None`, any object that has the declared roles."""
 
@@ -87,7 +86,7 @@ class ObjectValue(Record):
     declared: TypeExpr | None = None
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class PlaceValue(Record):
     """A place of an object; what stands in it is asked of the state, where an object is needed."""
 
@@ -101,28 +100,28 @@ class PlaceValue(Record):
         return PlaceRef(self.owner.name, self.kind, self.key)
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Word(Record):
     """A word of an enumeration: an arm, a value of a declared state, a choice of a skill."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class ListValue(Record):
     """A list; a range of a million numbers is one without its members being made."""
 
     items: Sequence[Val]
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class RecordValue(Record):
     """A row of a table: its cells by the names of their columns."""
 
     fields: Mapping[str, Val]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class TableValue(ListValue):
     """A table: a list of its rows, with each column as a list by its name."""
 

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from xei_lang.check.values import POISON, Interval, Poison, Val
 from xei_lang.diagnostics import Label
 from xei_lang.quantity import Quantity
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 
 _MOST_LABELS = 3
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Amount(Shown):
     """What a thing holds: a volume, or POISON once it depends on what is not known.
 

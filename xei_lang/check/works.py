@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from xei_lang.diagnostics import Span
 from xei_lang.ir.skill_plan import Call, Value
 from xei_lang.profiles.model import SkillSpec
-from xei_lang.record import Record
+from xei_lang.record import Record, record
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Work(Record):
     """What one `start` began.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import gc
 import os
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 from xei_lang.cli.bug import ReportedBugError
@@ -15,11 +15,11 @@ from xei_lang.diagnostics import Diagnostics, Source
 from xei_lang.diagnostics.plain import Plain, from_plain, to_plain
 from xei_lang.inputs import Inputs, Outside
 from xei_lang.profiles.cache_key import default_cache
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 from xei_lang.syntax.reading import read_source
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Checked(Shown):
     """A file that was checked, by its name in messages.
 
@@ -34,7 +34,7 @@ class Checked(Shown):
     asked: Asked
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Run(Shown):
     """How files are checked: `jobs` is the number of processes, `progress` is told how many are done."""
 

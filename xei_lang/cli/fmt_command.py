@@ -17,7 +17,7 @@ from xei_lang.cli.write_file import rewrite_text
 from xei_lang.diagnostics import Diagnostics, Source
 from xei_lang.diagnostics.render.terminal import visible
 from xei_lang.syntax.format import Formatter
-from xei_lang.syntax.reading import decode_source, read_source
+from xei_lang.syntax.reading import MAX_BYTES, decode_source, read_source
 
 _STDIN = Path("-")
 
@@ -78,7 +78,7 @@ def command(*, paths: tuple[Path, ...], check: bool, diff: bool, quiet: bool, co
 def _format(file: Path, formatter: Formatter) -> _Formatted:
     if file == _STDIN:
         before = sys.stdin.buffer.read()
-        source, said = decode_source(before, "<stdin>")
+        source, said = decode_source(before, "<stdin>", MAX_BYTES)
     else:
         source, said = read_source(file, str(file))
         before = b"" if source is None else file.read_bytes()

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
 from xei_lang.diagnostics.catalogue import CATALOGUE
 from xei_lang.diagnostics.span import Span
-from xei_lang.record import Record
+from xei_lang.record import Record, record
 
 Severity = Literal["error", "warning", "info"]
 Applicability = Literal["safe", "unsafe", "display"]
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Label(Record):
     """A secondary place that matters, and why."""
 
@@ -21,7 +20,7 @@ class Label(Record):
     message: str
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Edit(Record):
     """Replace what the span covers by `text`; an empty span inserts."""
 
@@ -29,7 +28,7 @@ class Edit(Record):
     text: str
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Fix(Record):
     """A mend: `safe` ones keep the meaning that was intended and may be applied unasked by `xei fix`."""
 
@@ -37,7 +36,7 @@ class Fix(Record):
     edits: tuple[Edit, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Diagnostic(Record):
     """What is wrong, where, by which rule, and the way out.
 

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
 from xei_lang.diagnostics import Span
-from xei_lang.record import Record
+from xei_lang.record import Record, record
 
 Stage = Literal["simulate", "strict", "hardware"]
 STAGES: tuple[Stage, ...] = ("simulate", "strict", "hardware")
 """From the mildest use of a profile to the real one. What blocks one stage blocks those after it."""
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Blocker(Record):
     """One thing that stands in the way.
 

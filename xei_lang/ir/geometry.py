@@ -7,9 +7,8 @@ A pose named `T_a_b` maps coordinates of frame b into frame a: `T_a_c = T_a_b @ 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
-from xei_lang.record import Record
+from xei_lang.record import Record, record
 
 Vec3 = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
@@ -33,7 +32,7 @@ def _unit(q: Quaternion) -> Quaternion:
     return (x, y, z, w)
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Pose(Record):
     """A rigid transform: rotate by `quaternion`, then translate by `position_m`."""
 
@@ -114,14 +113,14 @@ class Pose(Record):
 IDENTITY = Pose()
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Box(Record):
     """A box centred at its origin; full edge lengths in metres."""
 
     size_m: Vec3
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Cylinder(Record):
     """A cylinder along z, centred at its origin; metres."""
 
@@ -129,14 +128,14 @@ class Cylinder(Record):
     height_m: float
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Sphere(Record):
     """A sphere around its origin; metres."""
 
     radius_m: float
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Capsule(Record):
     """A cylinder along z of `height_m` with a half sphere at each end, centred at its origin; metres."""
 
@@ -147,7 +146,7 @@ class Capsule(Record):
 Shape = Box | Cylinder | Sphere | Capsule
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Primitive(Record):
     """One collision primitive of an object, placed in the object's frame."""
 

@@ -7,12 +7,11 @@ is a chain. Branches of a choice, turns of a loop and calls of procedures leave 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
 from xei_lang.diagnostics import Span
 from xei_lang.quantity import Quantity
-from xei_lang.record import Record
+from xei_lang.record import Record, record
 
 StepKind = Literal[
     "skill", "wait", "confirm", "start", "await", "pause", "resume", "stop", "leave", "measure", "require"
@@ -21,14 +20,14 @@ Side = Literal["left", "right"]
 ArmChoice = Literal["left", "right", "either"]
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class ObjectRef(Record):
     """A registered object, by its name in the usage profile."""
 
     name: str
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class PlaceRef(Record):
     """A place on or in an object: a slot of a rack (`kind="slot"`, `key="A1"`) or a named spot of a surface.
 
@@ -41,14 +40,14 @@ class PlaceRef(Record):
     key: str
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class StationRef(Record):
     """A navigation pose from which a bench is worked: a scene origin of the calibration profile."""
 
     name: str
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class PoseIn(Record):
     """A pose in a frame of the calibration profile (or `world`), in the units in which it was written.
 
@@ -61,7 +60,7 @@ class PoseIn(Record):
     rotation: tuple[Quantity, Quantity, Quantity]
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class RunValue(Record):
     """A value that measurements give: `formula` says how, with the ids of those steps, `needs`
     (`od[2] * 2 mL`).
@@ -91,7 +90,7 @@ Value = (
 """What an argument can be once it is checked. An arm is its name as a string (`left`, `right`, `either`)."""
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Condition(Record):
     """A condition that the plan leaves open. `text` is an expression of the language in which the measuring
     steps `needs` are named by their ids (`od[2] < 0.1`); without `needs` it is in the words of the protocol.
@@ -102,7 +101,7 @@ class Condition(Record):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Argument(Record):
     """A checked argument: its value and where both came from (`default` when the skill bank supplied it)."""
 
@@ -113,7 +112,7 @@ class Argument(Record):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Call(Record):
     """One frame of the call chain that led to a step: the procedure and where it was called."""
 
@@ -121,7 +120,7 @@ class Call(Record):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Fact(Record):
     """A known value of a state variable: `holding(left) == tube_1`, `at(tube_1) == rack_1.slot("A1")`."""
 
@@ -130,7 +129,7 @@ class Fact(Record):
     value: Value
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Step(Record):
     """One step of the plan.
 
@@ -163,7 +162,7 @@ class Step(Record):
         return next((argument.value for argument in self.args if argument.name == name), None)
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class UnmappedRequest(Record):
     """Something that was asked for and that this robot cannot do, kept in its place."""
 
@@ -173,7 +172,7 @@ class UnmappedRequest(Record):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class SafetyNote(Record):
     """A note of the protocol that people who run it must read."""
 
@@ -182,7 +181,7 @@ class SafetyNote(Record):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class TimeConstraint(Record):
     """`lower_s <= time(to) - time(from) <= upper_s` between ends of steps (`upper_s` may be infinite)."""
 
@@ -195,7 +194,7 @@ class TimeConstraint(Record):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class SkillPlan(Record):
     """The first handoff after the language: skill calls, gaps, notes and timing, each with its source."""
 

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import os
-from dataclasses import dataclass
 from pathlib import Path
 
 from xei_lang.diagnostics import Diagnostic, Source, Span
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 
 DEVELOPMENT = "development_profile.yaml"
 CALIBRATION = "calibration_profile.yaml"
@@ -16,7 +15,7 @@ REGISTRY = "object_registry.yaml"
 MAX_TEXT_BYTES = 2_000_000
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class ProfileFiles(Shown):
     """A profile folder as read: `shown` is its path for messages, `hashes` the SHA-256 of each file below it,
     sorted.

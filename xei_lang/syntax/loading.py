@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Protocol
 
 from xei_lang.diagnostics import Source
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class LoadedFile(Shown):
     """The text of a file, and what tells it from all others however it was named."""
 
@@ -17,7 +16,7 @@ class LoadedFile(Shown):
     identity: str
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Unusable(Shown):
     """Why a file cannot be had: words that follow its name (`does not exist`), and what may help.
 

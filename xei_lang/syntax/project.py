@@ -7,11 +7,10 @@ The project folder is the nearest folder upward from the protocol that holds `pr
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
 from pathlib import Path
 
 from xei_lang.diagnostics import Source, did_you_mean
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 from xei_lang.syntax.loading import LoadedFile, Unusable
 from xei_lang.syntax.reading import read_source
 
@@ -25,7 +24,7 @@ def project_folder(protocol: Path) -> Path:
     return next(marked, own)
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class ProjectFiles(Shown):
     """Reads files of the project of one protocol; a file is named in messages as the importing one is."""
 

@@ -22,10 +22,10 @@ def read_source(path: Path, shown: str) -> tuple[Source | None, Diagnostics]:
             data = file.read(MAX_BYTES + 1)
     except (OSError, ValueError) as error:
         return None, (_unreadable(shown, error),)
-    return decode_source(data, shown)
+    return decode_source(data, shown, MAX_BYTES)
 
 
-def decode_source(data: bytes, shown: str, limit: int = MAX_BYTES) -> tuple[Source | None, Diagnostics]:
+def decode_source(data: bytes, shown: str, limit: int) -> tuple[Source | None, Diagnostics]:
     """The text that bytes stand for, as `read_source` gives it; `limit` is how many there may be."""
     if len(data) > limit:
         message = f"`{shown}` is larger than {limit // 1024**2} MiB"

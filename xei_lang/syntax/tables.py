@@ -10,11 +10,11 @@ import os
 import sys
 import zlib
 from contextlib import suppress
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from xei_lang.record import Record
+from xei_lang.record import Record, record
 from xei_lang.resources import resource_path
 
 STARTS = ("module", "predicate", "expression", "role_expression")
@@ -22,7 +22,7 @@ END = "$END"
 _FORMAT = 1
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Rule(Record):
     """One production. `parts` holds (index, spliced) of each child; the index -1 stands for a missing option.
 
@@ -38,7 +38,7 @@ class Rule(Record):
     parts: tuple[tuple[int, bool], ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Tables(Record):
     """`actions[state][terminal]` is a state to shift to, or `-1 - rule` to reduce by; `gotos` are for rules.
 

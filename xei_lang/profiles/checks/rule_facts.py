@@ -5,13 +5,12 @@ bounds.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from fractions import Fraction
 
 from xei_lang.diagnostics import Span
 from xei_lang.profiles.model import SkillRule, SkillSpec
 from xei_lang.quantity import Quantity
-from xei_lang.record import Record
+from xei_lang.record import Record, record
 from xei_lang.syntax import ast
 
 Key = tuple[str, str]
@@ -20,7 +19,7 @@ Key = tuple[str, str]
 _MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Fact(Record):
     """`state(subject) op value`, where `value` is written in a rule; `span` is the whole comparison.
 

@@ -6,18 +6,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
 
 from xei_lang.profiles.model import ArgSpec, LabObject, Profile, SkillSpec
 from xei_lang.profiles.roles import fits
 from xei_lang.quantity import TYPE_DIMENSIONS, Dimension
 from xei_lang.quantity.dimension import NUMBER, TEMPERATURE, TIME, VOLUME
-from xei_lang.record import Record
+from xei_lang.record import Record, record
 from xei_lang.syntax import ast
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Kind(Record):
     """A sort of value, and of quantities their dimensions, of words the words, of a name the name itself."""
 

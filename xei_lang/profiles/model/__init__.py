@@ -7,8 +7,6 @@ The pydantic models that validate the YAML files stand in `profiles/schema/`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from xei_lang.profiles.model.bank import (
     MOST_TIMES,
     ArgSpec,
@@ -45,7 +43,7 @@ from xei_lang.profiles.model.lab import (
     Tip,
 )
 from xei_lang.profiles.model.robot import NamedState, RobotDescription, RobotJoint
-from xei_lang.record import Record
+from xei_lang.record import Record, record
 
 __all__ = [
     "MOST_TIMES",
@@ -84,7 +82,7 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Profile(Record):
     """A whole profile folder: all objects sorted by name, the skill bank, the calibration, the robot's
     description.

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from xei_lang.diagnostics import Span
 from xei_lang.profiles.model.lab import OperationDefault
 from xei_lang.quantity import Quantity
-from xei_lang.record import Record
+from xei_lang.record import Record, record
 
 if TYPE_CHECKING:
     from xei_lang.ir.goals import GoalKind
     from xei_lang.syntax.ast import Predicate, TypeExpr
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class ArgSpec(Record):
     """An argument of a skill. `type` is `object`, `Place`, `Pose`, `Station`, `Arm`, a quantity's type,
     `Int`, `Float`, `Bool`, `String`, or `choice` (then `choices` are its words). Bounds hold for quantities
@@ -38,7 +37,7 @@ class ArgSpec(Record):
     roles_text: str = ""
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class ReturnSpec(Record):
     """What a skill that measures gives back: a quantity's type, `Int` or `Float`, and its bounds, ends
     included; None where the instrument is not known to have any.
@@ -50,7 +49,7 @@ class ReturnSpec(Record):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class SkillRule(Record):
     """A predicate of a skill's contract, in its words and parsed."""
 
@@ -63,7 +62,7 @@ MOST_TIMES = 100
 """How often a template may go through the same lines."""
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Repeat(Record):
     """Lines of a template that are gone through several times, `times` being a number or the name of one.
 
@@ -75,7 +74,7 @@ class Repeat(Record):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class TemplateStep(Record):
     """One line of a skill's template: a goal kind and its fields, whose values may name arguments (`arm`),
     points of an operation (`object.pregrasp`) or operation parameters (`open_width`).
@@ -95,7 +94,7 @@ class TemplateStep(Record):
         return dict(self.fields).get(name)
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class SkillSpec(Record):
     """A registered skill: its contract and its template.
 
@@ -129,7 +128,7 @@ class SkillSpec(Record):
         return next((item for item in self.args if item.name == name), None)
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class SkillBank(Record):
     """The capability contract: the robot's parts and everything it has learnt to do."""
 

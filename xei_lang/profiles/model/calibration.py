@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
 from xei_lang.diagnostics import Span
 from xei_lang.ir.geometry import Pose, Vec3
 from xei_lang.ir.skill_plan import Side
-from xei_lang.record import Record
+from xei_lang.record import Record, record
 
 Status = Literal["measured", "estimated", "placeholder"]
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class CalibratedFrame(Record):
     """A static transform of the deployment and how well it is known."""
 
@@ -28,7 +27,7 @@ class CalibratedFrame(Record):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class PlanningLimit(Record):
     """The limits that plans keep for one joint, and why these: rad, rad/s, rad/s2, N m (m, N for prismatic
     joints).
@@ -44,7 +43,7 @@ class PlanningLimit(Record):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class SceneOrigin(Record):
     """A station: the base pose (in `world`) from which a bench is worked, and the frame to ground again
     there.
@@ -59,7 +58,7 @@ class SceneOrigin(Record):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class CarryPose(Record):
     """Where the hand of an arm keeps what it holds while the base drives: the object's origin in the base
     frame, m.
@@ -72,7 +71,7 @@ class CarryPose(Record):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Tag(Record):
     """One AprilTag of the layout: the length of its black square's edge, and its centre's pose in `frame`.
 
@@ -86,7 +85,7 @@ class Tag(Record):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class TagLayout(Record):
     """All AprilTags of the deployment, and what a detection of them must meet to be believed.
 
@@ -101,7 +100,7 @@ class TagLayout(Record):
     residual_px: float = 0.8
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Camera(Record):
     """A pinhole camera in pixels; the centre of the top left pixel is (0, 0).
 
@@ -123,7 +122,7 @@ class Camera(Record):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Lidar(Record):
     """A planar lidar: its frame (x forward, y left, z up: the scan's plane is z = 0) and topics."""
 
@@ -134,7 +133,7 @@ class Lidar(Record):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class MapFiles(Record):
     """The map's files, as paths below the profile's folder, and the SHA-256 of their bytes: those of the YAML
     file, then those of the image. What the profile leaves open is empty; `span` is the section.
@@ -154,7 +153,7 @@ class MapFiles(Record):
         return bool(self.yaml and self.image and self.sha256)
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Placeholder(Record):
     """Something that nobody has measured yet: the item of the calibration profile, and how to measure it."""
 
@@ -163,7 +162,7 @@ class Placeholder(Record):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Calibration(Record):
     """Frames, limits and tolerances of this deployment. Bounds are `(min xyz, max xyz)` in their frame,
     metres.

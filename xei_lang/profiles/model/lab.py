@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
 from xei_lang.diagnostics import Span
 from xei_lang.ir.geometry import Pose, Primitive, Shape, Vec3
 from xei_lang.quantity import Quantity
-from xei_lang.record import Record
+from xei_lang.record import Record, record
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Liquid(Record):
     """A container's volumes in m3 and its inner diameter in m."""
 
@@ -20,7 +19,7 @@ class Liquid(Record):
     inner_diameter_m: float
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class FiniteState(Record):
     """A declared state of an object, its values and the value it starts with."""
 
@@ -30,7 +29,7 @@ class FiniteState(Record):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class SlotGrid(Record):
     """A grid of slots: `rows[i]` and column j (from 1) name the slot `A1`; its mouth stands at `origin_m +
     (j-1) * pitch_m[0] * x + i * pitch_m[1] * y` in the object's frame, its axis along z.
@@ -49,7 +48,7 @@ class SlotGrid(Record):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Spot(Record):
     """A named place on a surface: where the bottom centre of an object stands, in the surface's frame."""
 
@@ -58,7 +57,7 @@ class Spot(Record):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Element(Record):
     """An element of a touch screen: centre and size on the screen's plane, metres."""
 
@@ -68,7 +67,7 @@ class Element(Record):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Tip(Record):
     """The tips that a pipette takes: length and widest outer diameter of one, how deep the nose sits in it
     (m), and what it holds (m3).
@@ -83,7 +82,7 @@ class Tip(Record):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Prior(Record):
     """Where an object is believed to be: in a place of another object, or (`in_object` empty) at a pose in a
     frame.
@@ -98,7 +97,7 @@ class Prior(Record):
     in_kind: Literal["", "slot", "spot"] = ""
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class OperationDefault(Record):
     """An operation parameter that a profile states for an object or a skill (`approach`, `width`,
     `standoff`).
@@ -109,7 +108,7 @@ class OperationDefault(Record):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class LabObject(Record):
     """An object of the usage profile or a system object of the registry. Its frame is at its bottom centre, z
     up.

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
 from xei_lang.ir.geometry import Pose, Vec3
-from xei_lang.record import Record
+from xei_lang.record import Record, record
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class RobotJoint(Record):
     """A joint of the URDF: its links, its place in the parent link, and its range and rating (rad or m, rad/s
     or m/s, N m or N).
@@ -30,7 +29,7 @@ class RobotJoint(Record):
     mimic: str
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class NamedState(Record):
     """A named configuration of a group of joints in the SRDF (`home` of `left_arm`)."""
 
@@ -39,7 +38,7 @@ class NamedState(Record):
     joints: tuple[tuple[str, float], ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class RobotDescription(Record):
     """The robot's tree and its named states; `root` is the link that no joint carries."""
 

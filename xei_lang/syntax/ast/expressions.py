@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
 
 from xei_lang.diagnostics import Span
 from xei_lang.quantity import Quantity
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Name(Shown):
     """A name where it is declared or used."""
 
@@ -19,7 +18,7 @@ class Name(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Number(Shown):
     """A plain number: an int if it was written without a decimal point, else an exact fraction."""
 
@@ -27,7 +26,7 @@ class Number(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class QuantityLit(Shown):
     """A number with a unit, never negative: `-20 degC` is a Unary over it."""
 
@@ -35,7 +34,7 @@ class QuantityLit(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class StringLit(Shown):
     """A text; `value` has its escapes resolved, the span covers the quotes."""
 
@@ -43,7 +42,7 @@ class StringLit(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Bool(Shown):
     """`true` or `false`."""
 
@@ -51,7 +50,7 @@ class Bool(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Unary(Shown):
     """`-operand` or `not operand`."""
 
@@ -60,7 +59,7 @@ class Unary(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Binary(Shown):
     """Arithmetic on two values."""
 
@@ -70,7 +69,7 @@ class Binary(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Compare(Shown):
     """One comparison; the grammar has no chains of them."""
 
@@ -80,7 +79,7 @@ class Compare(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class BoolOp(Shown):
     """`left and right`, `left or right`."""
 
@@ -90,7 +89,7 @@ class BoolOp(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Attr(Shown):
     """`value.name`, as in `rack.row`."""
 
@@ -99,7 +98,7 @@ class Attr(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Range(Shown):
     """`lower .. upper`, both ends included, with an optional step."""
 
@@ -109,7 +108,7 @@ class Range(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Index(Shown):
     """`value[index]`; a Range selects several."""
 
@@ -118,7 +117,7 @@ class Index(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Arg(Shown):
     """One argument of a call; `name` is None where only a value was given."""
 
@@ -127,7 +126,7 @@ class Arg(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class CallExpr(Shown):
     """A call that has a value, such as `rack.row("A")` or `volume(tube)`."""
 
@@ -136,7 +135,7 @@ class CallExpr(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class ListLit(Shown):
     """`[a, b]`."""
 
@@ -144,7 +143,7 @@ class ListLit(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class TupleLit(Shown):
     """`(a, b)`, of two items or more."""
 
@@ -152,7 +151,7 @@ class TupleLit(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Comprehension(Shown):
     """`[element for names in iterable if condition]`."""
 
@@ -185,7 +184,7 @@ StepRef = Name | Attr | Index
 """A step by its path: `warm`, `warm[2]`, `call.warm`."""
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Update(Shown):
     """What a skill does to a state variable: `cap(object) := open`, `volume(source) -= volume`."""
 

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from xei_lang.diagnostics import Span
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 from xei_lang.syntax.ast.expressions import Expression, Name, Number, Range, StringLit
 from xei_lang.syntax.ast.statements import Statement
 from xei_lang.syntax.ast.types import TypeExpr
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Comment(Shown):
     """A comment with its `#`, up to the end of its line."""
 
@@ -24,7 +22,7 @@ class Comment(Shown):
         return self.text.startswith("##")
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Import(Shown):
     """`import "path"`."""
 
@@ -32,7 +30,7 @@ class Import(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class ImportTable(Shown):
     """`import table "path" as name`."""
 
@@ -41,7 +39,7 @@ class ImportTable(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class ProfileDecl(Shown):
     """`profile "name"`."""
 
@@ -49,7 +47,7 @@ class ProfileDecl(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Param(Shown):
     """A parameter of a protocol or procedure; `doc` is the text of the `##` lines before it."""
 
@@ -61,7 +59,7 @@ class Param(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class ObjectDecl(Shown):
     """`object name: roles [= binding]`."""
 
@@ -72,7 +70,7 @@ class ObjectDecl(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Given(Shown):
     """`given condition`."""
 
@@ -80,7 +78,7 @@ class Given(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class GivenContains(Shown):
     """`given container contains amount of content [at concentration]`."""
 
@@ -95,7 +93,7 @@ Declaration = ProfileDecl | Param | ObjectDecl | Given | GivenContains
 Member = Declaration | Statement
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Procedure(Shown):
     """`procedure name(params) { ... }`."""
 
@@ -106,7 +104,7 @@ class Procedure(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Protocol(Shown):
     """`protocol name { ... }`; declarations and statements in the order in which they were written."""
 
@@ -119,7 +117,7 @@ class Protocol(Shown):
 Item = Import | ImportTable | Protocol | Procedure
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Module(Shown):
     """A whole file. `version` is the number behind `xei`, None where the file does not say.
 

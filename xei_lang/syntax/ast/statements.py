@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from xei_lang.diagnostics import Span
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 from xei_lang.syntax.ast.expressions import Arg, Expression, Name, Range, StepRef, StringLit
 from xei_lang.syntax.ast.types import TypeExpr
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Block(Shown):
     """`{ ... }`; the span covers the braces."""
 
@@ -18,7 +16,7 @@ class Block(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Within(Shown):
     """`within duration [of step]`: bounds the step itself, or the time since the end of another."""
 
@@ -27,7 +25,7 @@ class Within(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class After(Shown):
     """`after step [by range]`."""
 
@@ -39,7 +37,7 @@ class After(Shown):
 Clause = Within | After
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Call(Shown):
     """A skill or procedure with its arguments."""
 
@@ -48,7 +46,7 @@ class Call(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Wait(Shown):
     """`wait duration`."""
 
@@ -56,7 +54,7 @@ class Wait(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Start(Shown):
     """`start label: call`; the label is that of the Step around it."""
 
@@ -64,7 +62,7 @@ class Start(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Await(Shown):
     """`await step`."""
 
@@ -72,7 +70,7 @@ class Await(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Stop(Shown):
     """`stop step` ends what was started."""
 
@@ -80,7 +78,7 @@ class Stop(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class StopRun(Shown):
     """`stop "message"` ends the run."""
 
@@ -88,7 +86,7 @@ class StopRun(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Leave(Shown):
     """`leave step` lets what was started outlive the protocol."""
 
@@ -96,7 +94,7 @@ class Leave(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Pause(Shown):
     """`pause step { ... }`."""
 
@@ -105,7 +103,7 @@ class Pause(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Keep(Shown):
     """`keep condition { ... }`: holds at every point inside."""
 
@@ -114,7 +112,7 @@ class Keep(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Measure(Shown):
     """`measure name: type = call [in limits]`; the name is also the step's name."""
 
@@ -125,7 +123,7 @@ class Measure(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Confirm(Shown):
     """`confirm "text"`: a step of a person."""
 
@@ -133,7 +131,7 @@ class Confirm(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Do(Shown):
     """`do { ... }`: a block that can carry a label and clauses."""
 
@@ -141,7 +139,7 @@ class Do(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Parallel(Shown):
     """`parallel { {...} {...} }`, of one branch or more."""
 
@@ -149,7 +147,7 @@ class Parallel(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class For(Shown):
     """`for names in iterable [unordered] { ... }`."""
 
@@ -160,7 +158,7 @@ class For(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Repeat(Shown):
     """`repeat count times [until condition] { ... } [else { ... }]`."""
 
@@ -171,7 +169,7 @@ class Repeat(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class If(Shown):
     """`if condition { ... } [else ...]`; an `else if` is an If in `otherwise`."""
 
@@ -201,7 +199,7 @@ Action = (
 )
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Step(Shown):
     """An action with its label and its clauses; `label.span` covers the name without the colon."""
 
@@ -211,7 +209,7 @@ class Step(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Let(Shown):
     """`let name = value`; several names take a list apart."""
 
@@ -220,7 +218,7 @@ class Let(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Require(Shown):
     """`require condition`."""
 
@@ -228,7 +226,7 @@ class Require(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Unmapped(Shown):
     """`unmapped "text" [because "reason"]`: a request that the protocol does not fulfil."""
 
@@ -237,7 +235,7 @@ class Unmapped(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Note(Shown):
     """`note "text"`: a safety note that the plan carries."""
 

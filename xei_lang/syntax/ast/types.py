@@ -5,14 +5,12 @@ The grammar cannot tell the two apart; the checker does, by the names.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from xei_lang.diagnostics import Span
-from xei_lang.record import Shown
+from xei_lang.record import Shown, record
 from xei_lang.syntax.ast.expressions import Name
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Role(Shown):
     """The name of a role or of a value type."""
 
@@ -20,7 +18,7 @@ class Role(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class RoleAnd(Shown):
     """`left & right`."""
 
@@ -29,7 +27,7 @@ class RoleAnd(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class RoleOr(Shown):
     """`left | right`."""
 
@@ -38,7 +36,7 @@ class RoleOr(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class RoleNot(Shown):
     """`not operand`."""
 
@@ -46,7 +44,7 @@ class RoleNot(Shown):
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@record
 class Generic(Shown):
     """`List[Volume]`."""
 
