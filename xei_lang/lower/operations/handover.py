@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from xei_lang.diagnostics import Label
 from xei_lang.ir.geometry import Pose
 from xei_lang.ir.goals import ToolTarget
 from xei_lang.ir.skill_plan import ObjectRef, Side
@@ -18,6 +17,7 @@ from xei_lang.lower.hand import SIDES
 from xei_lang.lower.operations import grasp
 from xei_lang.lower.operations.approach import back_off
 from xei_lang.lower.operations.base import Aim, Operation, Planned, Work
+from xei_lang.lower.operations.held import in_hand
 from xei_lang.lower.operations.in_air import room_in_air
 from xei_lang.lower.operations.place import release_width
 from xei_lang.lower.parameters import Setting, computed_length
@@ -83,19 +83,7 @@ def _meeting(work: Work, held: Held) -> tuple[Pose, tuple[Setting, Setting]]:
 
 
 def _held(work: Work, side: Side) -> Held:
-    name, held = _name(work), work.scene.held.get(side)
-    if held is not None and held.object == name:
-        return held
-    since = work.scene.standing.get(name)
-    label: tuple[Label, ...] = (since.since,) if since and since.since else ()
-    return refuse(
-        "XEI0707",
-        f"`{name}` is not in the {side} hand when it is handed over",
-        work.span,
-        f"expected `{name}` in the {side} hand, found {f'`{held.object}`' if held else 'nothing'} in it",
-        label,
-        help=(f"pick `{name}` up before this step",) if since else (),
-    )
+    return in_hand(work, _name(work), "when it is handed over", side)
 
 
 def _name(work: Work) -> str:

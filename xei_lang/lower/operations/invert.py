@@ -17,6 +17,7 @@ from xei_lang.ir.goals import ToolTarget
 from xei_lang.ir.skill_plan import ObjectRef, Side
 from xei_lang.ir.tool_paths import Turn
 from xei_lang.lower.operations.base import Aim, Axis, Operation, Planned, Work
+from xei_lang.lower.operations.held import in_hand
 from xei_lang.lower.operations.in_air import room_in_air
 from xei_lang.lower.parameters import Setting
 from xei_lang.lower.refusal import refuse
@@ -87,15 +88,9 @@ def _plan(work: Work, axis_name: str, angle: Setting, angles: Angles, *more: Set
 def _closed(work: Work) -> tuple[Held, LabObject]:
     """What the hand holds, if it is the subject and nothing can run out of it."""
     assert isinstance(work.subject, ObjectRef)
-    name, held = work.subject.name, work.scene.held.get(work.arm)
-    known = work.profile.object(name)
-    if held is None or known is None or held.object != name:
-        refuse(
-            "XEI0707",
-            f"the {work.arm} hand does not hold `{name}` when it turns it",
-            work.span,
-            f"expected `{name}` in the {work.arm} hand",
-        )
+    name = work.subject.name
+    held, known = in_hand(work, name, "when it is turned over"), work.profile.object(name)
+    assert known is not None
     if known.liquid is None:
         return held, known
     states = {state.name: state.initial for state in known.states}

@@ -6,6 +6,7 @@ from xei_lang.ir.geometry import Vec3
 from xei_lang.ir.goals import ToolTarget
 from xei_lang.ir.skill_plan import ObjectRef
 from xei_lang.lower.operations.base import Aim, Operation, Planned, Work
+from xei_lang.lower.operations.held import in_hand
 from xei_lang.lower.parameters import Setting, computed_length
 from xei_lang.lower.refusal import refuse
 
@@ -15,14 +16,7 @@ _CLEAR_M = 0.020
 def plan(work: Work) -> Planned:
     """The aim `lift`: the held object above where it stood, by `lift` along the axis that leads out."""
     assert isinstance(work.subject, ObjectRef)
-    held = work.scene.held.get(work.arm)
-    if held is None or held.object != work.subject.name:
-        refuse(
-            "XEI0707",
-            f"the {work.arm} hand does not hold `{work.subject.name}` when it lifts it",
-            work.span,
-            "expected an object in the hand",
-        )
+    held = in_hand(work, work.subject.name, "when it is lifted")
     setting = clear_travel(work, "lift", held.sunk_m, "leaves the slot")
     T_base_grasped = work.scene.in_base(held.T_world_grasped)
     up = T_base_grasped.axes()[2] if held.sunk_m > 0.0 else (0.0, 0.0, 1.0)

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 from xei_lang.diagnostics import Label
 from xei_lang.ir.geometry import Box, Capsule, Cylinder, Pose, Primitive, Shape, Vec3
-from xei_lang.ir.skill_plan import ObjectRef
 from xei_lang.lower.operations.base import Work
+from xei_lang.lower.operations.held import held_of_step
 from xei_lang.lower.parameters import Setting, computed_length
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.walk import Held
@@ -46,16 +46,7 @@ class Pipette:
 
 def held_pipette(work: Work) -> Pipette:
     """The pipette in the arm's hand, if the step names it; refuses otherwise (XEI0707, XEI0726)."""
-    held = work.scene.held.get(work.arm)
-    named = [item.value.name for item in work.step.args if isinstance(item.value, ObjectRef)]
-    known = work.profile.object(held.object) if held is not None and held.object in named else None
-    if held is None or known is None:
-        refuse(
-            "XEI0707",
-            f"the {work.arm} hand does not hold the pipette",
-            work.step.span,
-            f"expected one of {', '.join(f'`{name}`' for name in named)} in the {work.arm} hand",
-        )
+    held, known = held_of_step(work, "when it is used as a pipette")
     if known.tip is None:
         refuse(
             "XEI0726",

@@ -11,6 +11,7 @@ from xei_lang.ir.skill_plan import PlaceRef
 from xei_lang.lower.hand import hand_of
 from xei_lang.lower.operations.approach import back_off
 from xei_lang.lower.operations.base import Aim, Operation, Planned, Work
+from xei_lang.lower.operations.held import in_hand
 from xei_lang.lower.operations.lift import along, clear_travel
 from xei_lang.lower.operations.surface import free_room
 from xei_lang.lower.parameters import ROUNDING_M, Setting, computed_length
@@ -70,20 +71,7 @@ def _aims(work: Work, held: Held, T_world_placed: Pose, depth: Setting | None) -
 
 
 def _held(work: Work) -> Held:
-    held = work.scene.held.get(work.arm)
-    if held is not None and held.object == work.object:
-        return held
-    where = work.scene.standing.get(work.object)
-    found = f"`{held.object}` in it" if held else "nothing in it"
-    since = where.since if where else held.since if held else None
-    return refuse(
-        "XEI0707",
-        f"`{work.object}` is not in the {work.arm} hand when it is set down",
-        next((item.span for item in work.step.args if item.name == "object"), work.span),
-        f"expected `{work.object}` in the {work.arm} hand, found {found}",
-        (since,) if since else (),
-        help=(f"pick `{work.object}` up before this step",) if where else (),
-    )
+    return in_hand(work, work.object, "when it is set down")
 
 
 def _seat(work: Work, ref: PlaceRef) -> Seat:

@@ -16,6 +16,7 @@ from xei_lang.ir.goals import ToolTarget
 from xei_lang.ir.skill_plan import ObjectRef, Side
 from xei_lang.ir.tool_paths import Turn
 from xei_lang.lower.operations.base import Aim, Axis, Operation, Planned, Work
+from xei_lang.lower.operations.held import held_of_step
 from xei_lang.lower.operations.vessel import Vessel
 from xei_lang.lower.parameters import Setting, computed_length
 from xei_lang.lower.refusal import refuse
@@ -73,17 +74,7 @@ def plan(work: Work) -> Planned:
 
 def _held(work: Work) -> tuple[Held, LabObject]:
     """What the arm holds, if the step is about it and it is not the target itself."""
-    held = work.scene.held.get(work.arm)
-    named = [item.value.name for item in work.step.args if isinstance(item.value, ObjectRef)]
-    known = work.profile.object(held.object) if held is not None and held.object in named else None
-    if held is None or known is None or held.object == _name(work):
-        refuse(
-            "XEI0707",
-            f"the {work.arm} hand does not hold what it pours from",
-            work.step.span,
-            f"expected one of {', '.join(f'`{name}`' for name in named)} in the {work.arm} hand",
-        )
-    return held, known
+    return held_of_step(work, "when it is poured", but=_name(work))
 
 
 def _name(work: Work) -> str:

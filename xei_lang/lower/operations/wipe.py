@@ -14,6 +14,7 @@ from xei_lang.ir.goals import ToolTarget
 from xei_lang.ir.skill_plan import PlaceRef
 from xei_lang.ir.tool_paths import Raster
 from xei_lang.lower.operations.base import Aim, Area, Operation, Planned, Work
+from xei_lang.lower.operations.held import in_hand
 from xei_lang.lower.operations.lift import along
 from xei_lang.lower.parameters import Setting, computed_length
 from xei_lang.lower.refusal import refuse
@@ -81,14 +82,8 @@ def _planned(
 
 
 def _held(work: Work) -> tuple[Held, LabObject]:
-    held, known = work.scene.held.get(work.arm), work.profile.object(work.object)
-    if held is None or known is None or held.object != work.object:
-        refuse(
-            "XEI0707",
-            f"the {work.arm} hand does not hold `{work.object}` when it wipes with it",
-            work.span,
-            f"expected `{work.object}` in the {work.arm} hand",
-        )
+    held, known = in_hand(work, work.object, "when it wipes"), work.profile.object(work.object)
+    assert known is not None
     return held, known
 
 

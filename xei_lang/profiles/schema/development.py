@@ -19,7 +19,7 @@ from xei_lang.profiles.schema.values import (
 )
 from xei_lang.quantity.dimension import TIME
 
-ReturnType = Literal[
+QuantityType = Literal[
     "Volume",
     "Length",
     "Mass",
@@ -36,36 +36,10 @@ ReturnType = Literal[
     "Amount",
     "CentrifugalForce",
     "Concentration",
-    "Int",
-    "Float",
 ]
+ReturnType = Literal[QuantityType, "Int", "Float"]
 ArgType = Literal[
-    "object",
-    "Place",
-    "Pose",
-    "Station",
-    "Arm",
-    "Volume",
-    "Length",
-    "Mass",
-    "Time",
-    "Temperature",
-    "TemperatureDifference",
-    "Angle",
-    "Speed",
-    "AngularSpeed",
-    "Force",
-    "Acceleration",
-    "Frequency",
-    "Flow",
-    "Amount",
-    "CentrifugalForce",
-    "Concentration",
-    "Int",
-    "Float",
-    "Bool",
-    "String",
-    "choice",
+    "object", "Place", "Pose", "Station", "Arm", QuantityType, "Int", "Float", "Bool", "String", "choice"
 ]
 
 
