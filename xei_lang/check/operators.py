@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from xei_lang.check import arithmetic
@@ -13,9 +14,20 @@ from xei_lang.check.names import ANY_WORD
 from xei_lang.check.report import Reporter
 from xei_lang.check.run_time import MAX_FORMULA, formula_of, joined, needs_of, negated
 from xei_lang.check.scope import Scope
-from xei_lang.check.values import POISON, ObjectValue, PlaceValue, Undecided, Val, Word, a, kind, show
+from xei_lang.check.values import (
+    POISON,
+    Interval,
+    ObjectValue,
+    PlaceValue,
+    Undecided,
+    Val,
+    Word,
+    a,
+    kind,
+    show,
+)
 from xei_lang.diagnostics import Label
-from xei_lang.quantity import DimensionError
+from xei_lang.quantity import DimensionError, Quantity
 from xei_lang.syntax.ast import Attr, Binary, BoolOp, CallExpr, Compare, Expression, Unary
 
 if TYPE_CHECKING:
@@ -157,6 +169,7 @@ class Operators:
                 Label(node.left.span, f"{kind(left)}: {show(left)}"),
                 Label(node.right.span, f"{kind(right)}: {show(right)}"),
             ),
+            help=_with_unit(node.op, left, right),
         )
         return POISON
 
@@ -173,3 +186,16 @@ class Operators:
 def _is_open(value: Val) -> bool:
     owner = value.owner if isinstance(value, PlaceValue) else value
     return isinstance(owner, ObjectValue) and owner.registered is None
+
+
+def _with_unit(op: str, left: Val, right: Val) -> tuple[str, ...]:
+    """What to say where a bare number stands beside a quantity: the number, with the quantity's unit."""
+    for one, other in ((left, right), (right, left)):
+        quantity = one.lower if isinstance(one, Interval) else one
+        if isinstance(quantity, Quantity) and quantity.unit and op not in ("*", "/") and _is_plain(other):
+            return (f"write the number with its unit, for example `{show(other)} {quantity.unit}`",)
+    return ()
+
+
+def _is_plain(value: Val) -> bool:
+    return isinstance(value, int | Fraction) and not isinstance(value, bool)
