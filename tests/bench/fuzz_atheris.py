@@ -44,7 +44,9 @@ def table_of(given: atheris.FuzzedDataProvider) -> str:
     found: list[str] = []
     for _ in range(given.ConsumeIntInRange(0, 40)):
         free = given.ConsumeIntInRange(0, 4) == 0
-        found.append(given.ConsumeUnicode(6) if free else parts[given.ConsumeIntInRange(0, len(parts) - 1)])
+        found.append(
+            given.ConsumeUnicodeNoSurrogates(6) if free else parts[given.ConsumeIntInRange(0, len(parts) - 1)]
+        )
     return "".join(found)
 
 
