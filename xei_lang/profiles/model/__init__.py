@@ -40,6 +40,7 @@ from xei_lang.profiles.model.lab import (
     Prior,
     SlotGrid,
     Spot,
+    Thread,
     Tip,
 )
 from xei_lang.profiles.model.robot import NamedState, RobotDescription, RobotJoint
@@ -78,6 +79,7 @@ __all__ = [
     "Tag",
     "TagLayout",
     "TemplateStep",
+    "Thread",
     "Tip",
 ]
 

@@ -83,6 +83,21 @@ class Tip(Record):
 
 
 @record
+class Thread(Record):
+    """The thread of a cap: the place that it closes (`on_object.spot("on_key")`), how far it rises in a whole
+    turn (m), in how many turns it comes off, and where it lies while its vessel is open.
+    """
+
+    on_object: str
+    on_key: str
+    lead_m: float
+    turns: float
+    rest_object: str
+    rest_key: str
+    span: Span
+
+
+@record
 class Prior(Record):
     """Where an object is believed to be: in a place of another object, or (`in_object` empty) at a pose in a
     frame.
@@ -133,3 +148,4 @@ class LabObject(Record):
     system: bool
     span: Span
     tip: Tip | None = None
+    thread: Thread | None = None
