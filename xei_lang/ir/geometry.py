@@ -26,10 +26,12 @@ def _multiply(a: Quaternion, b: Quaternion) -> Quaternion:
 
 
 def _unit(q: Quaternion) -> Quaternion:
-    norm = math.sqrt(sum(value * value for value in q))
-    sign = -1.0 if q[3] < 0.0 else 1.0
-    x, y, z, w = (sign * value / norm + 0.0 for value in q)
-    return (x, y, z, w)
+    """Of unit norm and with w >= 0, so that one rotation has one quaternion; `+ 0.0` leaves no -0.0."""
+    x, y, z, w = q
+    norm = math.sqrt(x * x + y * y + z * z + w * w)
+    if w < 0.0:
+        norm = -norm
+    return (x / norm + 0.0, y / norm + 0.0, z / norm + 0.0, w / norm + 0.0)
 
 
 @record

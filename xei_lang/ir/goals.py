@@ -176,8 +176,8 @@ class Instrument:
 
 @dataclass(frozen=True, slots=True)
 class Attach:
-    """From here on the object moves with the hand; one in the other hand is then in both, until that one
-    detaches.
+    """From here on the object moves with the hand, and what rides on it too; one in the other hand is then in
+    both, until that one detaches. What was fastened on another object rides there no more.
     """
 
     object: str
@@ -190,12 +190,14 @@ class Detach:
     """From here on the object stands at `T_base_object` (turned about z where the family is symmetric).
 
     Where `place` is a hand (`in_hand`), that hand holds it too by then and goes on holding it there.
+    `fastened_to` names the object that it rides on from here on, wherever that goes; empty for none.
     """
 
     object: str
     arm: Side
     place: str
     T_base_object: Pose
+    fastened_to: str = ""
 
 
 def in_hand(side: Side) -> str:

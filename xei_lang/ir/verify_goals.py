@@ -30,6 +30,7 @@ from xei_lang.ir.goals import (
     in_hand,
 )
 from xei_lang.ir.skill_plan import Side
+from xei_lang.ir.verify_riders import rider_problems
 from xei_lang.ir.verify_runs import run_problems
 from xei_lang.ir.verify_tool_paths import path_problems
 
@@ -56,9 +57,10 @@ def verify_goals(graph: MotionGoalGraph) -> tuple[str, ...]:
     Checked: unique ids; edges between known goals that run forward (so there is no cycle); actions that fit
     their kinds; known, non-empty families with finite members; finite poses and unit quaternions; epochs
     that start at 0, are all described and grow by one with each drive; hands that attach and detach in
-    turn, the object and family that they hold; durations, openings and speeds within their ranges; paths of
-    the tool that are stated where they must be, and lead from the move before to their target; runs of
-    instruments that begin once, go on one at a time, and are paused, resumed and ended in turn.
+    turn, the object and family that they hold; what is fastened, on no circle; durations, openings and speeds
+    within their ranges; paths of the tool that are stated where they must be, and lead from the move before
+    to their target; runs of instruments that begin once, go on one at a time, and are paused, resumed and
+    ended in turn.
     """
     problems = [*_ids_and_edges(graph), *_families(graph), *_epochs(graph)]
     families = {family.id for family in graph.families}
@@ -67,6 +69,7 @@ def verify_goals(graph: MotionGoalGraph) -> tuple[str, ...]:
     problems.extend(path_problems(graph))
     problems.extend(run_problems(graph))
     problems.extend(_hands(graph))
+    problems.extend(rider_problems(graph))
     return tuple(problems)
 
 

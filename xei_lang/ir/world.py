@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from xei_lang.ir.geometry import Pose, Primitive, Vec3
+from xei_lang.ir.tolerance import ToleranceKind
 
 
 @dataclass(frozen=True, slots=True)
@@ -13,7 +14,8 @@ class WorldObject:
 
     `T_frame_object` places the object's frame (bottom centre, z up) in `frame_id`; `place` is the slot or
     spot that it stands in (`rack_1.slot("A1")`) or empty. `provenance` says, field by field, which source
-    won.
+    won. `fastened_to` names the object that it rides on (a cap on its bottle): wherever that goes, it goes
+    too. Empty for what stands free.
     """
 
     name: str
@@ -30,11 +32,15 @@ class WorldObject:
     states: tuple[tuple[str, str], ...] = ()
     metadata: tuple[tuple[str, str], ...] = ()
     provenance: tuple[tuple[str, str], ...] = ()
+    fastened_to: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """A frame of the tree: its parent, its pose there, and how it is known."""
+    """A frame of the tree: its parent, its pose there, and how it is known.
+
+    Its tolerances are bounds or standard deviations, as `tolerance_as` says.
+    """
 
     name: str
     parent: str
@@ -42,6 +48,7 @@ class Frame:
     status: str
     position_tolerance_m: float
     rotation_tolerance_rad: float
+    tolerance_as: ToleranceKind = "bound"
 
 
 @dataclass(frozen=True, slots=True)

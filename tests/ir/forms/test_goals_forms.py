@@ -18,7 +18,7 @@ from xei_lang.ir.forms.goals_json import to_json
 from xei_lang.ir.forms.goals_text import to_text
 from xei_lang.ir.forms.pose_text import pose_text
 from xei_lang.ir.geometry import Pose
-from xei_lang.ir.goals import Instrument, MotionGoalGraph
+from xei_lang.ir.goals import Detach, Instrument, MotionGoalGraph
 from xei_lang.lower import lower
 from xei_lang.quantity import parse_quantity
 
@@ -111,3 +111,16 @@ def test_poses_are_said_in_millimetres_and_degrees() -> None:
     tilted = pose_text(Pose.from_rpy((0.0, 0.0, 0.0), (0.5235988, 0.0, 0.0)))
     assert tilted == "(0, 0, 0) mm rpy (30, 0, 0) deg"
     assert "rpy (0, 90, 0)" in pose_text(Pose.from_rpy((0.0, 0.0, 0.0), (0.0, 1.5707963267948966, 0.0)))
+
+
+def test_what_a_detach_fastens_is_said_and_only_then(graph: MotionGoalGraph) -> None:
+    index, goal = next((k, goal) for k, goal in enumerate(graph.goals) if goal.kind == "detach")
+    assert isinstance(goal.action, Detach)
+    screwed = replace(goal, action=replace(goal.action, fastened_to="bottle_1"))
+    fastened = replace(graph, goals=(*graph.goals[:index], screwed, *graph.goals[index + 1 :]))
+    value = document(fastened)
+    jsonschema.Draft202012Validator(SCHEMA).validate(value)
+    assert value["goals"][index]["action"]["fastened_to"] == "bottle_1"
+    assert "fastened_to" not in document(graph)["goals"][index]["action"]
+    assert ", fastened to bottle_1" in to_text(fastened)
+    assert "fastened" not in to_text(graph)

@@ -2,7 +2,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
+from xei_lang.ir.forms import world_json
 from xei_lang.ir.forms.world_text import to_text
 from xei_lang.ir.geometry import Box, Cylinder, Pose, Primitive
 from xei_lang.ir.world import Frame, RobotState, World, WorldObject
@@ -44,3 +46,14 @@ def test_a_world_in_words(golden: Callable[[str, str], None]) -> None:
 def test_a_world_of_nothing_still_says_where_the_robot_is() -> None:
     text = to_text(World((), (), RobotState((), "bench_a", Pose())))
     assert text == "robot at bench_a: base (0, 0, 0) mm\n\nasked, in this order: nothing\n"
+
+
+def test_what_an_object_rides_on_is_said_and_only_then() -> None:
+    world = _world()
+    tube = replace(world.objects[1], fastened_to="table")
+    riding = replace(world, objects=(world.objects[0], tube))
+    assert ', in rack_1.slot("A1"), fastened to table' in to_text(riding)
+    assert "fastened" not in to_text(world)
+    objects = world_json.to_json(riding)["objects"]
+    assert isinstance(objects, list)
+    assert [isinstance(item, dict) and item.get("fastened_to") for item in objects] == [None, "table"]

@@ -3,7 +3,7 @@
 
 Spans count characters from 0 in their file, end excluded. A duration without a bound is `null`. Every
 action carries what its dataclass in `ir/goals.py` says, under the same names; a move without a stated path
-or bound of the tool has no such key.
+or bound of the tool has no such key, nor has a detach that fastens on nothing.
 """
 
 from __future__ import annotations
@@ -110,6 +110,7 @@ def _action(action: Action) -> dict[str, Json]:
             "arm": action.arm,
             "place": action.place,
             "T_base_object": pose(action.T_base_object),
+            **({"fastened_to": action.fastened_to} if action.fastened_to else {}),
         }
     if isinstance(action, NavToPose):
         return {

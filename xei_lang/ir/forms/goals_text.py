@@ -92,9 +92,9 @@ def _action(kind: str, action: Action) -> str:
     if isinstance(action, Attach):
         return f"attach {action.object} to {action.arm} by {action.family}"
     if isinstance(action, Detach):
-        return (
-            f"detach {action.object} from {action.arm} at {action.place}, {pose_text(action.T_base_object)}"
-        )
+        fastened = f", fastened to {action.fastened_to}" if action.fastened_to else ""
+        where = f"{action.place}, {pose_text(action.T_base_object)}"
+        return f"detach {action.object} from {action.arm} at {where}{fastened}"
     if isinstance(action, NavToPose):
         return f"nav_to_pose {action.station}, base {pose_text(action.T_world_base)}"
     return f"{kind} {_rest(action)}"

@@ -60,4 +60,5 @@ def _object(item: WorldObject) -> dict[str, Json]:
         "states": dict(item.states),
         "metadata": dict(item.metadata),
         "provenance": dict(item.provenance),
+        **({"fastened_to": item.fastened_to} if item.fastened_to else {}),
     }

@@ -39,6 +39,7 @@ def _drive(drive: Drive) -> str:
 
 def _object(item: WorldObject) -> str:
     place = f", in {item.place}" if item.place else ""
+    place += f", fastened to {item.fastened_to}" if item.fastened_to else ""
     lines = [f"{item.name}: {pose_text(item.T_frame_object)} in {item.frame_id}{place}"]
     size = " x ".join(millimetres(value) for value in item.size_m)
     shapes = f"{len(item.geometry)} shape{'s' if len(item.geometry) != 1 else ''}"

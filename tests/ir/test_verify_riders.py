@@ -1,0 +1,71 @@
+"""What rides on other objects in a MotionGoalGraph: on something else, on no circle, and not in a hand."""
+
+from __future__ import annotations
+
+import pytest
+
+from xei_lang.diagnostics import Span
+from xei_lang.ir.geometry import Pose
+from xei_lang.ir.goals import (
+    Action,
+    Attach,
+    Detach,
+    Epoch,
+    Family,
+    GoalKind,
+    MotionGoal,
+    MotionGoalGraph,
+    ToolPose,
+    in_hand,
+)
+from xei_lang.ir.verify_goals import verify_goals
+from xei_lang.ir.verify_riders import rider_problems
+
+MOUTH = 'bottle.spot("mouth")'
+
+
+def graph(*actions: Attach | Detach) -> MotionGoalGraph:
+    goals = tuple(_goal(str(number), action) for number, action in enumerate(actions))
+    return MotionGoalGraph(
+        goals, (), (Family("f", "cap", (ToolPose("m", Pose()),)),), (Epoch(0, "a", Pose()),)
+    )
+
+
+def _goal(name: str, action: Action) -> MotionGoal:
+    kind: GoalKind = "attach" if isinstance(action, Attach) else "detach"
+    return MotionGoal(name, "s", kind, action, 0, (), Span("a.xei", 0, 1))
+
+
+def screwed(name: str, on: str) -> tuple[Attach, Detach]:
+    return Attach(name, "left", "f"), Detach(name, "left", MOUTH, Pose(), on)
+
+
+def test_a_cap_screwed_on_in_strokes_taken_off_and_screwed_on_elsewhere() -> None:
+    sound = graph(*screwed("cap", "bottle"), *screwed("cap", "bottle"), *screwed("cap", "jar"))
+    assert verify_goals(sound) == ()
+
+
+def test_a_cap_taken_off_may_carry_what_carried_it() -> None:
+    assert not list(rider_problems(graph(*screwed("a", "b"), *screwed("a", ""), *screwed("b", "a"))))
+
+
+@pytest.mark.parametrize(
+    "unsound",
+    [
+        graph(*screwed("cap", "cap")),
+        graph(*screwed("a", "b"), *screwed("b", "a")),
+        graph(*screwed("a", "b"), *screwed("b", "c"), *screwed("c", "a")),
+    ],
+    ids=["itself", "a pair", "three"],
+)
+def test_nothing_rides_on_itself(unsound: MotionGoalGraph) -> None:
+    assert [text for text in verify_goals(unsound) if "is fastened on itself" in text]
+
+
+def test_what_is_left_to_a_hand_is_not_fastened() -> None:
+    unsound = graph(
+        Attach("cap", "left", "f"),
+        Attach("cap", "right", "f"),
+        Detach("cap", "left", in_hand("right"), Pose(), "bottle"),
+    )
+    assert [text for text in verify_goals(unsound) if "left to a hand, and fastened" in text]
