@@ -208,6 +208,7 @@ _ENTRIES = {
     "XEI0724": Entry("an object that no camera can have in its picture"),
     "XEI0725": Entry("a closed vessel that a tip is to go into"),
     "XEI0726": Entry("a tip that does not fit"),
+    "XEI0727": Entry("a hand that lifts what is screwed on"),
     # 08xx motion
     "XEI0801": Entry("an object or a place that is out of reach"),
     "XEI0802": Entry("a place that no grasp reaches without touching something"),
