@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.xei import xei
+from tests.cli.xei import PROFILES, xei
 from tests.world.perception.serving import process
-from tests.world.perception.tagged_lab import tagged_lab
+from tests.world.perception.views import bench
 from xei_lang.ir.forms.canonical import dumps
 from xei_lang.ir.geometry import Pose
 from xei_lang.profiles.model import Profile
@@ -28,13 +28,13 @@ PUSHED = Pose((0.010, -0.006, 0.0))
 
 
 @pytest.fixture(scope="module")
-def lab(tmp_path_factory: pytest.TempPathFactory) -> Profile:
-    return tagged_lab(tmp_path_factory.mktemp("lab"))
+def lab() -> Profile:
+    return bench()
 
 
 @pytest.fixture(scope="module")
-def folder(lab: Profile) -> Path:
-    """The lab's folder, with a picture of its second rack where it was pushed to."""
+def folder(lab: Profile, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder of the bench, with a picture of its second rack where it was pushed to."""
     world, said = ground(lab)
     assert world is not None, said
     objects = tuple(
@@ -44,7 +44,8 @@ def folder(lab: Profile) -> Path:
     truth = replace(world, objects=objects)
     picture = mujoco_bench.take_picture(lab, truth, lab.calibration.cameras[0], stamp_ns=10**18, seed=3)
     request = ask_for(picture, registry_of(lab), ("rack_1", "rack_2"), request_id="r1", session_id="s1")
-    here = Path(lab.folder).parents[1]
+    here = tmp_path_factory.mktemp("bench")
+    (here / "profiles").symlink_to(PROFILES)
     (here / "picture.json").write_text(dumps(request_json(request)), encoding="utf-8")
     (here / "broken.json").write_text('{"request_id": 1}', encoding="utf-8")
     return here

@@ -12,7 +12,7 @@ import pytest
 
 from tests.cli.xei import ROOT
 from tests.world.perception.serving import process
-from tests.world.perception.tagged_lab import tagged_lab
+from tests.world.perception.views import bench
 from xei_lang.diagnostics import Source, has_errors
 from xei_lang.ir.geometry import Pose
 from xei_lang.ir.goals import Detach
@@ -39,8 +39,8 @@ TOLERANCE_RAD = math.radians(0.1)
 
 
 @pytest.fixture(scope="module")
-def lab(tmp_path_factory: pytest.TempPathFactory) -> Profile:
-    return tagged_lab(tmp_path_factory.mktemp("lab"))
+def lab() -> Profile:
+    return bench()
 
 
 @pytest.fixture(scope="module")
@@ -67,7 +67,7 @@ def seen(lab: Profile, picture: Picture) -> Seen:
         (ROOT / "xei_lang/world/perception/pose_request.schema.json").read_text(encoding="utf-8")
     )
     jsonschema.Draft202012Validator(schema).validate(request_json(request))
-    with process(Path(lab.folder).parents[1], "--backend", "apriltag") as url:
+    with process(ROOT, "--backend", "apriltag") as url:
         found = observe(PoseClient(url), lab, request, now_ns=STAMP_NS + 300_000_000)
     assert isinstance(found, Seen), found
     return found

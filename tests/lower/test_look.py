@@ -81,7 +81,9 @@ def test_the_slide_moves_there_and_the_bench_is_grounded_again() -> None:
     assert [item.name for item in move.parameters] == ["look_height", "camera", "look_margin"]
 
 
-@pytest.mark.parametrize("calls", [(("look_at", {"target": obj("beaker_1")}),)])
+@pytest.mark.parametrize(
+    "calls", [(("look_at", {"target": obj("beaker_3")}),), (("look_at", {"target": obj("reader")}),)]
+)
 def test_what_is_outside_the_picture_at_every_height_is_refused(calls) -> None:
     graph, problems = lower(plan(*calls), PROFILE, WORLD)
     assert graph is None
@@ -96,6 +98,6 @@ def test_a_held_object_is_not_looked_at() -> None:
 
 
 def test_moving_the_object_into_the_picture_helps() -> None:
-    world = moved(WORLD, "beaker_1", 0.25, 0.1)
-    graph, problems = lower(plan(("look_at", {"target": obj("beaker_1")})), PROFILE, world)
+    world = moved(WORLD, "beaker_3", 0.25, 0.1)
+    graph, problems = lower(plan(("look_at", {"target": obj("beaker_3")})), PROFILE, world)
     assert graph is not None, problems

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from tests.world.perception.tagged_lab import tagged_lab
+from tests.world.perception.views import bench
 from xei_lang.ir.geometry import Pose
 from xei_lang.ir.world import World
 from xei_lang.profiles.model import Profile
@@ -34,10 +32,9 @@ class Scene:
         return ask_for(self.picture, registry_of(self.lab), names, request_id=request_id, session_id="s1")
 
 
-@cache
 def lab() -> Profile:
-    with TemporaryDirectory() as folder:
-        return tagged_lab(Path(folder))
+    """The bench, whose racks have tags on them."""
+    return bench()
 
 
 @cache
@@ -51,13 +48,10 @@ def rendered() -> Scene:
 
 @cache
 def truth() -> World:
-    """The bench as its priors have it, but for the bottle: it stands where the picture shows all of it."""
+    """The bench as its priors have it."""
     world, said = ground(lab())
     assert world is not None, said
-    return replace(world, objects=tuple(
-        replace(item, T_frame_object=Pose((0.36, -0.25, 0.0)), place="") if item.name == "bottle_1" else item
-        for item in world.objects
-    ))  # fmt: skip
+    return world
 
 
 def small_picture(size_px: tuple[int, int] = (64, 48)) -> Picture:

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.cli.xei import PROFILES
 from tests.world.perception.pictures import STAMP_NS, lab, rendered, small_request, truth
 from tests.world.perception.serving import Rogue, misbehaving, nobody, process, served
-from tests.world.perception.tagged_lab import write_tagged_lab
 from xei_lang.world.perception.client import Limits, PoseClient
 from xei_lang.world.perception.observe import Seen, observe
 from xei_lang.world.perception.pictures import encode_mask
@@ -33,19 +33,19 @@ def adapter(url: str) -> Desk:
 
 @pytest.mark.skipif(_MISSING is not None, reason=_MISSING or "")
 def test_poses_come_from_the_other_process_with_masks_that_were_proposed(tmp_path: Path) -> None:
-    write_tagged_lab(tmp_path)
+    (tmp_path / "profiles").symlink_to(PROFILES)
     scene = tmp_path / "scene.yaml"
     scene.write_text(
         f"version: 1\nprofile: openarm_bench\nobjects_sha256: {objects_sha256(lab())}\nobjects:\n"
-        "  bottle_1: {frame: table, position: [0.36 m, -0.25 m, 0 m], confidence: 0.9}\n",
+        "  wipe_1: {frame: table, position: [0.08 m, 0.44 m, 0 m], confidence: 0.9}\n",
         encoding="utf-8",
     )
-    request = rendered().request("bottle_1", "rack_1", "rack_2")
+    request = rendered().request("wipe_1", "rack_1", "rack_2")
     arguments = ("--backend", "mock", "--world", "scene.yaml")
     with process(tmp_path, *arguments) as upstream, served(adapter(upstream)) as url:
         seen = observe(PoseClient(url), lab(), request, now_ns=STAMP_NS)
     assert isinstance(seen, Seen), seen
-    assert [item.name for item in seen.observations.items] == ["bottle_1"], seen.refused
+    assert [item.name for item in seen.observations.items] == ["wipe_1"], seen.refused
     # The two racks are of one size, so that no mask is proposed for either, and nothing is guessed.
     assert [(item.name, item.reason) for item in seen.refused] == [
         ("rack_1", "no_object"),

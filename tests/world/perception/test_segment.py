@@ -53,7 +53,7 @@ def overlap(a: np.ndarray, b: np.ndarray) -> float:
     return float((a & b).sum() / (a | b).sum())
 
 
-@pytest.mark.parametrize("name", ["bottle_1", "heater_block"])
+@pytest.mark.parametrize("name", ["wipe_1", "heater_block"])
 def test_what_stands_free_is_cut_out_by_its_size(name):
     masks = proposed(name)
     assert list(masks) == [name]
@@ -62,10 +62,11 @@ def test_what_stands_free_is_cut_out_by_its_size(name):
 
 def test_two_of_one_size_are_not_told_apart():
     assert proposed("rack_1", "rack_2") == {}
+    # A beaker that is in the picture too is about as large as the bottle.
+    assert proposed("bottle_1") == {}
 
 
 def test_what_is_not_there_gets_no_mask():
-    assert proposed("wipe_1") == {} or overlap(proposed("wipe_1")["wipe_1"], drawn("wipe_1")) > 0.8
     assert proposed("table_b") == {}
 
 
@@ -86,11 +87,11 @@ def test_sizes_decide_only_where_they_are_sure():
     table = rendered().truth.T_world_frame("table").inverse() @ rendered().picture.T_output_camera
     points = table_points(taken.depth_m, taken.optics, table)
     found = propose(taken.depth_m, points, rendered().lab.calibration.table_bounds_m, 0.01)
-    bottle, block = (0.056, 0.056, 0.105), (0.130, 0.090, 0.085)
-    assert [one is not None for one in assign(found, [bottle, block])] == [True, True]
-    assert assign(found, [bottle, bottle, block])[:2] == (None, None)
+    wipe, block = (0.070, 0.060, 0.030), (0.130, 0.090, 0.085)
+    assert [one is not None for one in assign(found, [wipe, block])] == [True, True]
+    assert assign(found, [wipe, wipe, block])[:2] == (None, None)
     assert assign(found, [(0.5, 0.5, 0.5)]) == (None,)
-    assert assign((), [bottle]) == (None,)
+    assert assign((), [wipe]) == (None,)
     assert assign(found, []) == ()
     sizes = [int(one.mask.sum()) for one in found]
     assert sizes == sorted(sizes, reverse=True)
