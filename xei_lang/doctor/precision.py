@@ -71,11 +71,8 @@ def _worst(profile: Profile, world: World, holder: LabObject) -> tuple[str, Slot
 
 def _blocker(profile: Profile, holder: LabObject, name: str, found: SlotPrecision, mend: str) -> Blocker:
     calibrated = {frame.name for frame in profile.calibration.frames}
-    weak = max(
-        (link for link in found.way.links if link.name in calibrated),
-        key=lambda link: (link.position_tolerance_m, link.rotation_tolerance_rad),
-        default=found.way.links[-1],
-    )
+    shares = [share for share in found.way.shares if share.link.name in calibrated]
+    weak = max(shares, key=lambda share: share.most_m, default=found.way.shares[-1]).link
     item = f"frames.{weak.name}.tolerance"
     measure = (
         f"{mend.format(frame=weak.name)} `{name}` with an error of {found.capture_m * 1000:.1f} mm, and may "

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from xei_lang.ir.goals import Confirm, Instrument, NavToPose, Parameter, Perceive, SetDo, SlideMove, Wait
 from xei_lang.ir.skill_plan import ObjectRef
+from xei_lang.ir.tolerance import as_bound
 from xei_lang.lower.draft import Builder, Draft, contacts
 from xei_lang.lower.look import look_height
 from xei_lang.lower.refusal import refuse
@@ -47,8 +48,8 @@ def _nav_to_pose(task: Task, line: TemplateStep) -> Draft:
     action = NavToPose(
         station.name,
         station.T_world_base,
-        calibration.docking_position_tolerance_m,
-        calibration.docking_rotation_tolerance_rad,
+        as_bound(calibration.docking_position_tolerance_m, calibration.docking_tolerance_as),
+        as_bound(calibration.docking_rotation_tolerance_rad, calibration.docking_tolerance_as),
     )
     after = task.scene.drive(station.name, station.T_world_base)
     way, allowed = task.scene.way_to(station.name), contacts(task.scene, after)

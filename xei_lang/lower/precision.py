@@ -10,7 +10,8 @@ from collections.abc import Iterator
 from xei_lang.check.effects import effects_of, moves
 from xei_lang.diagnostics import Diagnostic
 from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, SkillPlan, Step
-from xei_lang.ir.world import World
+from xei_lang.ir.tolerance import SIGMAS
+from xei_lang.ir.world import Frame, World
 from xei_lang.lower.precision_of_tips import tip_fits
 from xei_lang.lower.seats import place_text
 from xei_lang.profiles.model import Profile
@@ -64,11 +65,16 @@ def _warning(
 
 def _shown(way: Transform) -> str:
     parts = [
-        f"`{link.name}` ({_mm(link.position_tolerance_m)}, {_degrees(link.rotation_tolerance_rad)})"
+        f"`{link.name}` ({_tolerance(link)})"
         for link in way.links
         if link.position_tolerance_m or link.rotation_tolerance_rad
     ]
     return " and ".join(parts)
+
+
+def _tolerance(link: Frame) -> str:
+    text = f"{_mm(link.position_tolerance_m)}, {_degrees(link.rotation_tolerance_rad)}"
+    return f"standard deviation {text}; {SIGMAS:g} of them count" if link.tolerance_as == "std" else text
 
 
 def _degrees(angle_rad: float) -> str:

@@ -10,6 +10,7 @@ from xei_lang.ir.geometry import Pose
 from xei_lang.ir.goals import Attach, Detach, MotionGoalGraph
 from xei_lang.ir.skill_plan import SkillPlan
 from xei_lang.ir.timed import TimedPlan
+from xei_lang.ir.tolerance import as_bound
 from xei_lang.ir.world import World
 from xei_lang.profiles.model import Profile
 from xei_lang.runtime.failure import Failure, failure
@@ -52,8 +53,8 @@ def check_scene(given: Handoffs) -> Failure | None:
     if not _near(
         robot.T_world_base,
         nominal,
-        calibration.docking_position_tolerance_m,
-        calibration.docking_rotation_tolerance_rad,
+        as_bound(calibration.docking_position_tolerance_m, calibration.docking_tolerance_as),
+        as_bound(calibration.docking_rotation_tolerance_rad, calibration.docking_tolerance_as),
     ):
         return failure(
             "scene_origin",

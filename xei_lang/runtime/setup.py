@@ -43,6 +43,7 @@ def _frame(given: Handoffs, name: str) -> dict[str, Any] | None:
         "status": frame.status,
         "position_tolerance_m": frame.position_tolerance_m,
         "rotation_tolerance_rad": frame.rotation_tolerance_rad,
+        "tolerance_as": frame.tolerance_as,
     }
 
 

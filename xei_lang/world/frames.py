@@ -55,6 +55,7 @@ def frame_tree(profile: Profile, state: RobotState) -> tuple[Frame, ...]:
             frame.status,
             frame.position_tolerance_m,
             frame.rotation_tolerance_rad,
+            frame.tolerance_as,
         )
         for frame in calibration.frames
     ]
@@ -70,6 +71,7 @@ def frame_tree(profile: Profile, state: RobotState) -> tuple[Frame, ...]:
                     station.status,
                     calibration.docking_position_tolerance_m,
                     calibration.docking_rotation_tolerance_rad,
+                    calibration.docking_tolerance_as,
                 )
             )
         else:

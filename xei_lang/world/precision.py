@@ -17,8 +17,8 @@ BASE = "robot_base"
 class SlotPrecision:
     """How far an object may miss a slot, and how far the slot may be from where the robot takes it to be.
 
-    `capture_m` is the gap around the object and the chamfer that leads it in; `tolerance_m` bounds the error
-    of the slot's mouth in the robot's base, along `way`.
+    `capture_m` is the gap around the object and the chamfer that leads it in; `tolerance_m` is what the error
+    of the slot's mouth in the robot's base is taken to be at most, along `way`.
     """
 
     capture_m: float

@@ -31,6 +31,7 @@ def _frame(frame: Frame) -> dict[str, Json]:
         "status": frame.status,
         "position_tolerance_m": frame.position_tolerance_m,
         "rotation_tolerance_rad": frame.rotation_tolerance_rad,
+        "tolerance_as": frame.tolerance_as,
     }
 
 

@@ -28,7 +28,8 @@ def _robot(state: RobotState) -> str:
 
 def _frame(frame: Frame) -> str:
     turn = f"{math.degrees(frame.rotation_tolerance_rad):.3g}"
-    good = f"good to {millimetres(frame.position_tolerance_m)} mm and {turn} deg"
+    known = "standard deviation" if frame.tolerance_as == "std" else "good to"
+    good = f"{known} {millimetres(frame.position_tolerance_m)} mm and {turn} deg"
     return f"frame {frame.name} in {frame.parent}: {pose_text(frame.T_parent_frame)}, {frame.status}, {good}"
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from xei_lang.diagnostics import Diagnostic, Label
+from xei_lang.ir.tolerance import as_bound
 from xei_lang.profiles.grid import T_frame_object, T_world_frame
 from xei_lang.profiles.model import LabObject, Profile, SlotGrid
 from xei_lang.profiles.trees import Trees
@@ -135,7 +136,8 @@ def _table(profile: Profile) -> Iterator[Diagnostic]:
     if frame is None or T_world_table is None:
         return
     height = T_world_table.position_m[2]
-    if abs(height - calibration.table_height_m) > max(frame.position_tolerance_m, _SLACK_M):
+    within_m = max(as_bound(frame.position_tolerance_m, frame.tolerance_as), _SLACK_M)
+    if abs(height - calibration.table_height_m) > within_m:
         yield Diagnostic(
             "XEI0640",
             f"the frame `{frame.name}` and the table's height disagree",

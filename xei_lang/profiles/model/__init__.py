@@ -18,7 +18,6 @@ from xei_lang.profiles.model.bank import (
     TemplateStep,
 )
 from xei_lang.profiles.model.calibration import (
-    CalibratedFrame,
     Calibration,
     Camera,
     CarryPose,
@@ -27,10 +26,10 @@ from xei_lang.profiles.model.calibration import (
     Placeholder,
     PlanningLimit,
     SceneOrigin,
-    Status,
     Tag,
     TagLayout,
 )
+from xei_lang.profiles.model.frames import CalibratedFrame, EarlierTransform, Status
 from xei_lang.profiles.model.lab import (
     Element,
     FiniteState,
@@ -53,6 +52,7 @@ __all__ = [
     "Calibration",
     "Camera",
     "CarryPose",
+    "EarlierTransform",
     "Element",
     "FiniteState",
     "LabObject",

@@ -2,29 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 from xei_lang.diagnostics import Span
 from xei_lang.ir.geometry import Pose, Vec3
 from xei_lang.ir.skill_plan import Side
+from xei_lang.ir.tolerance import ToleranceKind
+from xei_lang.profiles.model.frames import CalibratedFrame, Status
 from xei_lang.record import Record, record
-
-Status = Literal["measured", "estimated", "placeholder"]
-
-
-@record
-class CalibratedFrame(Record):
-    """A static transform of the deployment and how well it is known."""
-
-    name: str
-    parent: str
-    T_parent_frame: Pose
-    status: Status
-    measured_on: str
-    method: str
-    position_tolerance_m: float
-    rotation_tolerance_rad: float
-    span: Span
 
 
 @record
@@ -168,7 +151,8 @@ class Calibration(Record):
     metres.
 
     `robot_frames` maps frames that the robot carries to links of its description. `placeholders` lists what
-    nobody has measured yet and what therefore blocks a run on hardware.
+    nobody has measured yet and what therefore blocks a run on hardware. A measurement older than `max_age_s`
+    is stale; None where none ever is.
     """
 
     frames: tuple[CalibratedFrame, ...]
@@ -194,6 +178,8 @@ class Calibration(Record):
     cameras: tuple[Camera, ...] = ()
     lidars: tuple[Lidar, ...] = ()
     map: MapFiles | None = None
+    docking_tolerance_as: ToleranceKind = "bound"
+    max_age_s: float | None = None
 
     def carry_pose(self, arm: Side) -> CarryPose | None:
         """Where this arm carries what it holds, or None where the profile does not say."""

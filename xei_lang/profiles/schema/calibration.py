@@ -6,7 +6,9 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field
 
+from xei_lang.profiles.schema.frames import Day, FrameModel
 from xei_lang.profiles.schema.values import (
+    Age,
     AngleVector,
     AngularSpeed,
     Bounds,
@@ -23,22 +25,9 @@ from xei_lang.profiles.schema.values import (
     Speed,
     Status,
     Text,
-    Tolerance,
     Torque,
     Turn,
 )
-
-
-class FrameModel(Model):
-    """A static transform, and how it is known."""
-
-    parent: Name
-    position: LengthVector | None = None
-    rpy: AngleVector | None = None
-    status: Status
-    measured_on: str | None = None
-    method: Text
-    tolerance: Tolerance
 
 
 class LimitModel(Model):
@@ -80,10 +69,11 @@ class CarryModel(Model):
 
 
 class DockingModel(Model):
-    """How well the base reaches a station (bounds)."""
+    """How well the base reaches a station: bounds, or standard deviations (`as: std`)."""
 
     position: Distance
     rotation: Turn
+    kind: Literal["bound", "std"] = Field(default="bound", alias="as")
     status: Status
     remark: Text
 
@@ -105,6 +95,17 @@ class TableModel(Model):
     bounds: Bounds
 
 
+class EarlierMapModel(Model):
+    """A map that another one has taken the place of."""
+
+    frame: Name
+    yaml: str | None
+    image: str | None
+    sha256: str | None
+    status: Status
+    measured_on: Day | None = None
+
+
 class MapModel(Model):
     """The map (ROS map_server) and the frame that it is in; null is a gap that blocks driving on hardware."""
 
@@ -113,7 +114,8 @@ class MapModel(Model):
     image: str | None
     sha256: str | None
     status: Status
-    measured_on: str | None = None
+    measured_on: Day | None = None
+    history: Annotated[list[EarlierMapModel], Field(max_length=1000)] = Field(default=[])
 
 
 class TagModel(Model):
@@ -193,3 +195,4 @@ class CalibrationProfile(Model):
     apriltags: TagsModel
     cameras: dict[Name, CameraModel] = Field(default={})
     lidars: dict[Name, LidarModel] = Field(default={})
+    max_age: Age | None = None

@@ -17,6 +17,7 @@ from xei_lang.quantity.dimension import (
     LENGTH,
     MASS,
     SPEED,
+    TIME,
     TORQUE,
     VOLUME,
 )
@@ -32,6 +33,7 @@ _EXAMPLES = {
     ANGULAR_SPEED: "2.5 rad/s",
     ANGULAR_ACCELERATION: "10 rad/s2",
     TORQUE: "20 Nm",
+    TIME: "90 d",
 }
 _PATTERN = r"^[+-]?[0-9]+(\.[0-9]+)?[ \t]*[^\s0-9.]\S*$"
 
@@ -124,6 +126,7 @@ JointVelocity = Annotated[Quantity, Measures(ANGULAR_SPEED, SPEED, sign="above z
 JointAcceleration = Annotated[Quantity, Measures(ANGULAR_ACCELERATION, ACCELERATION, sign="above zero")]
 Torque = Annotated[Quantity, Measures(TORQUE, sign="above zero")]
 Force = Annotated[Quantity, Measures(FORCE, sign="above zero")]
+Age = Annotated[Quantity, Measures(TIME, sign="above zero")]
 AnyQuantity = Annotated[Quantity, Measures()]
 OperationValue = Annotated[Quantity | str, OperationParameter()]
 
@@ -145,10 +148,3 @@ class Bounds(Model):
 
     lower: LengthVector
     upper: LengthVector
-
-
-class Tolerance(Model):
-    """Standard deviations of a transform."""
-
-    position: Distance
-    rotation: Turn

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from xei_lang.diagnostics import Diagnostic, Diagnostics
 from xei_lang.ir.forms.canonical import Json
 from xei_lang.ir.geometry import Pose
+from xei_lang.ir.tolerance import as_bound, tolerance_text
+from xei_lang.ir.world import Frame
 from xei_lang.profiles.model import Camera, Profile
 from xei_lang.world.perception.detect_tags import TagDetection
 from xei_lang.world.perception.frame_anchor import FrameAnchor
@@ -108,8 +110,7 @@ def _anchor_lines(frame: str, anchor: FrameAnchor, verified: Verified | None) ->
         f"  in robot_base   {pose_text(verified.T_base_frame)}",
         f"  expected there  {pose_text(verified.expected_T_base_frame)}",
         f"  {1e3 * apart.position_m:.2f} mm and {math.degrees(apart.rotation_rad):.3f} deg apart, {verdict} "
-        f"the tolerance of {1e3 * stated.position_tolerance_m:g} mm and "
-        f"{math.degrees(stated.rotation_tolerance_rad):g} deg, from {verified.station}",
+        f"the tolerance of {_allowed(stated)}, from {verified.station}",
     ]
 
 
@@ -143,8 +144,8 @@ def _frame_json(one: FrameFinding) -> Json:
         "T_parent_frame": verified.T_parent_found.matrix(),
         "deviation": {"position_m": apart.position_m, "rotation_rad": apart.rotation_rad},
         "tolerance": {
-            "position_m": stated.position_tolerance_m,
-            "rotation_rad": stated.rotation_tolerance_rad,
+            "position_m": as_bound(stated.position_tolerance_m, stated.tolerance_as),
+            "rotation_rad": as_bound(stated.rotation_tolerance_rad, stated.tolerance_as),
         },
     }
 
@@ -155,9 +156,7 @@ def _off(frame: str, verified: Verified) -> Diagnostic:
         f"`{frame}` stands {1e3 * apart.position_m:.1f} mm and {math.degrees(apart.rotation_rad):.2f} deg "
         f"from where the profile says"
     )
-    allowed = (
-        f"{1e3 * stated.position_tolerance_m:g} mm and {math.degrees(stated.rotation_tolerance_rad):g} deg"
-    )
+    allowed = _allowed(stated)
     measured = pose_text(verified.T_parent_found)
     return Diagnostic(
         "XEI0683",
@@ -167,6 +166,10 @@ def _off(frame: str, verified: Verified) -> Diagnostic:
             f"if the robot stands there and its camera is calibrated, write in `frames.{frame}`: {measured}",
         ),
     )
+
+
+def _allowed(stated: Frame) -> str:
+    return tolerance_text(stated.position_tolerance_m, stated.rotation_tolerance_rad, stated.tolerance_as)
 
 
 def pose_text(pose: Pose) -> str:
