@@ -16,6 +16,7 @@ from xei_lang.lower.hand import SIDES
 from xei_lang.lower.operations import OPERATIONS, Operation, Planned, Work, operation_of_point
 from xei_lang.lower.parameters import Layers, Setting, layers_of
 from xei_lang.lower.refusal import refuse
+from xei_lang.lower.riders import refuse_fastened
 from xei_lang.lower.walk import Scene
 from xei_lang.profiles.model import Profile, SceneOrigin, SkillSpec, TemplateStep
 
@@ -80,6 +81,7 @@ class Task:
         key = (operation.name, argument, arm)
         if key not in self.plans:
             work = self._work(argument, arm, line)
+            refuse_fastened(operation, work)
             planned = operation.plan(work)
             self.plans[key] = planned
             made = planned.family

@@ -7,7 +7,7 @@ that a drive only changes the base and what the base does not carry is seen from
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from xei_lang.diagnostics import Label, Span
 from xei_lang.ir.geometry import Pose
@@ -23,6 +23,8 @@ _REST_TOLERANCE_M = 0.01
 class Standing:
     """An object that no hand holds: its pose, the place it stands in (or empty), what carries it, and since
     when.
+
+    What is `fastened` rides on what carries it: a hand that takes that one takes both.
     """
 
     object: str
@@ -30,6 +32,17 @@ class Standing:
     place: str
     support: str
     since: Label | None
+    fastened: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Rider:
+    """What rides on an object that a hand holds: where it sits there, which never changes, and what it is
+    once that one stands again.
+    """
+
+    T_carrier_rider: Pose
+    standing: Standing
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,8 +68,9 @@ class Held:
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """Where everything is at one point of the plan. `reached` names the object that an open hand stands
-    around; `drives` are the ways between stations that a map is known to leave.
+    """Where everything is at one point of the plan. `reached` names the object that a hand stands around
+    without holding it; `drives` are the ways between stations that a map is known to leave; `riding` is what
+    rides on objects in hands, by name.
     """
 
     epoch: Epoch
@@ -65,6 +79,7 @@ class Scene:
     held: Mapping[Side, Held]
     reached: Mapping[Side, str]
     drives: tuple[Drive, ...] = ()
+    riding: Mapping[str, Rider] = field(default_factory=dict[str, Rider])
 
     @staticmethod
     def of(world: World, profile: Profile) -> Scene:
@@ -90,22 +105,51 @@ class Scene:
         return tuple(side for side, held in self.held.items() if held.object == name)
 
     def carried_by(self, name: str) -> tuple[Standing, ...]:
-        """What stands in or on the object."""
-        return tuple(item for item in self.standing.values() if item.support == name)
+        """What stands in or on the object and would stay behind or fall if that were lifted."""
+        return tuple(item for item in self.standing.values() if item.support == name and not item.fastened)
+
+    def carrier_of(self, name: str) -> str:
+        """The object that this one is fastened on, wherever they are; empty for none."""
+        rider = self.riding.get(name)
+        found = rider.standing if rider else self.standing.get(name)
+        return found.support if found and found.fastened else ""
+
+    def riders_of(self, name: str) -> tuple[str, ...]:
+        """What is fastened on the object, and on that, carriers first."""
+        names = [*self.standing, *self.riding]
+        own = [other for other in names if self.carrier_of(other) == name]
+        return tuple(found for other in own for found in (other, *self.riders_of(other)))
 
     def occupant(self, place: str) -> Standing | None:
         """What stands in a place, or None."""
         return next((item for item in self.standing.values() if item.place == place), None)
 
     def attach(self, side: Side, held: Held) -> Scene:
-        """The hand takes the object away from where it stands."""
-        standing = {name: item for name, item in self.standing.items() if name != held.object}
-        return replace(self, standing=standing, held={**self.held, side: held}, reached={})
+        """The hand takes the object away from where it stands, with what rides on it; that one rides on
+        nothing from then on. What another hand stands around but does not take, it goes on standing around.
+        """
+        taken = (held.object, *self.riders_of(held.object))
+        standing = {name: item for name, item in self.standing.items() if name not in taken}
+        riding = {name: item for name, item in self.riding.items() if name != held.object}
+        riding |= {name: self._rider(self.standing[name]) for name in taken[1:] if name in self.standing}
+        reached = {key: name for key, name in self.reached.items() if key != side and name not in taken}
+        return replace(
+            self, standing=standing, held={**self.held, side: held}, reached=reached, riding=riding
+        )
+
+    def _rider(self, rider: Standing) -> Rider:
+        return Rider(self.standing[rider.support].T_world_object.inverse() @ rider.T_world_object, rider)
 
     def detach(self, side: Side, standing: Standing) -> Scene:
-        """The hand leaves its object standing."""
+        """The hand leaves its object standing, and what rides on it."""
         held = {key: item for key, item in self.held.items() if key != side}
-        return replace(self, held=held, standing={**self.standing, standing.object: standing})
+        stands = {**self.standing, standing.object: standing}
+        for name in self.riders_of(standing.object):
+            rider = self.riding[name]
+            T_world_rider = stands[rider.standing.support].T_world_object @ rider.T_carrier_rider
+            stands[name] = replace(rider.standing, T_world_object=T_world_rider)
+        riding = {name: item for name, item in self.riding.items() if name not in stands}
+        return replace(self, held=held, standing=stands, riding=riding)
 
     def let_go(self, side: Side) -> Scene:
         """The hand leaves its object to the other one, which holds it too."""
@@ -139,15 +183,18 @@ class Scene:
 
     def forget(self, names: tuple[str, ...]) -> Scene:
         """Drop objects whose whereabouts are not known any more, so that one mistake is reported once."""
-        standing = {name: item for name, item in self.standing.items() if name not in names}
-        held = {side: item for side, item in self.held.items() if item.object not in names}
-        return replace(self, standing=standing, held=held, reached={})
+        lost = {rider for name in names for rider in (name, *self.riders_of(name))}
+        standing = {name: item for name, item in self.standing.items() if name not in lost}
+        held = {side: item for side, item in self.held.items() if item.object not in lost}
+        riding = {name: item for name, item in self.riding.items() if name not in lost}
+        return replace(self, standing=standing, held=held, reached={}, riding=riding)
 
 
 def _standing(item: WorldObject, world: World, profile: Profile) -> Standing:
     pose = world.T_world_object(item.name)
-    support = item.place.partition(".")[0] or _support(item.name, pose, world)
-    return Standing(item.name, pose, item.place, support, _prior_label(item.name, profile))
+    support = item.fastened_to or item.place.partition(".")[0] or _support(item.name, pose, world)
+    since = _prior_label(item.name, profile)
+    return Standing(item.name, pose, item.place, support, since, bool(item.fastened_to))
 
 
 def _prior_label(name: str, profile: Profile) -> Label | None:

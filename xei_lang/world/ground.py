@@ -79,7 +79,16 @@ def _grounded(one: Known) -> WorldObject:
         states=known.states,
         metadata=(*known.metadata, *moved),
         provenance=tuple(_provenance(one)),
+        fastened_to=_carrier(one),
     )
+
+
+def _carrier(one: Known) -> str:
+    """The object on whose thread this one is screwed, or empty."""
+    thread, place = one.belief.item.thread, one.standing.place
+    if thread is None or place is None:
+        return ""
+    return thread.on_object if (thread.on_object, thread.on_key) == (place.object, place.key) else ""
 
 
 def _provenance(one: Known) -> Iterator[tuple[str, str]]:

@@ -1,7 +1,8 @@
 """What an object that was seen somewhere stands in or on: eyes are off by millimetres, slots are not.
 
 An object that was seen upright, its axis through a slot's bore and its bottom near the slot's floor, stands
-in that slot. Near a named spot it stands there, where it was seen. On a surface it stands on the surface.
+in that slot. Near a named spot it stands there, where it was seen; a cap near its thread is screwed on, in
+the middle of it. On a surface it stands on the surface.
 """
 
 from __future__ import annotations
@@ -91,11 +92,18 @@ def _candidates(item: LabObject, stand: Host, seen: Pose) -> Iterator[tuple[int,
         distance_m = math.hypot(x - sx, y - sy)
         if distance_m <= SPOT_M and abs(z - sz) <= HEIGHT_M:
             place = PlaceRef(host.name, "spot", spot.name)
-            yield 1, distance_m, Settled(host, place, _upright(seen, x, y, sz))
+            screwed = _is_screwed(item, place)
+            yield 1, distance_m, Settled(host, place, _upright(seen, *((sx, sy) if screwed else (x, y)), sz))
     top = host.size_m[2]
     on_it = abs(x) <= host.size_m[0] / 2 and abs(y) <= host.size_m[1] / 2
     if _takes(host) and on_it and abs(z - top) <= HEIGHT_M:
         yield 2, abs(z - top), Settled(host, PlaceRef(host.name, "surface", ""), _upright(seen, x, y, top))
+
+
+def _is_screwed(item: LabObject, place: PlaceRef) -> bool:
+    """Whether its thread holds it there, which centres it better than eyes see."""
+    thread = item.thread
+    return thread is not None and (thread.on_object, thread.on_key) == (place.object, place.key)
 
 
 def leveled(pose: Pose) -> Pose:
