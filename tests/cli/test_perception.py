@@ -13,6 +13,7 @@ import pytest
 
 from tests.cli.pictures import image_of_the_table
 from tests.cli.xei import PROFILES, ROOT, xei
+from tests.world.perception.two_cameras import write_two_cameras
 from xei_lang.ir.geometry import Pose
 
 SCHEMA = ROOT / "xei_lang" / "world" / "perception" / "tags.schema.json"
@@ -103,6 +104,17 @@ def test_a_missing_library_is_told(lab: Path) -> None:
     assert ran.code == 1
     assert "error[XEI0688]: this needs `cv2`, which is not installed" in ran.err
     assert "pip install 'xei-lang[perception]'" in ran.err
+
+
+def test_of_several_cameras_one_is_named(tmp_path: Path) -> None:
+    write_two_cameras(tmp_path)
+    image_of_the_table(tmp_path / "bench.png")
+    ran = xei("perception", "detect", "bench.png", cwd=tmp_path)
+    assert ran.code == 1
+    assert "error[XEI0680]: `openarm_bench` has 2 cameras, and it is not said whose image this is" in ran.err
+    assert "name one of `head`, `ceiling` with `--camera`" in ran.err
+    ran = xei("perception", "detect", "bench.png", "--camera", "head", cwd=tmp_path)
+    assert (ran.code, "looking through `head`" in ran.err) == (0, True), ran.err
 
 
 def test_an_unknown_profile_is_told(lab: Path) -> None:

@@ -21,7 +21,6 @@ from xei_lang.syntax.reading import read_source
 if TYPE_CHECKING:
     from xei_lang.world.calibration.hand_eye import HandEye
     from xei_lang.world.calibration.measured import Measured
-    from xei_lang.world.calibration.recording import Recording
 
 
 @click.command("calibrate")
@@ -30,7 +29,9 @@ if TYPE_CHECKING:
 @click.option(
     "-o", "--output", type=click.Path(path_type=Path), help="Write the lines to a file, and print none."
 )
-@click.option("--write", is_flag=True, help="Put the transform into the calibration profile.")
+@click.option(
+    "--write", is_flag=True, help="Put the transform into the profile; what it was goes to its history."
+)
 @click.option("--quiet", is_flag=True, help="Print the lines and errors only.")
 @click.option("--color", type=click.Choice(["auto", "always", "never"]), default="auto", show_default=True)
 def command(
@@ -38,8 +39,8 @@ def command(
 ) -> None:
     """Solve where a camera is mounted from stills of tags at known joint positions.
 
-    Prints the transform as lines of `calibration_profile.yaml`. The recording's form is that of `xei schema
-    recording`.
+    Prints the transform as lines of `calibration_profile.yaml`, with its tolerance, residuals and covariance.
+    The recording's form is that of `xei schema recording`.
 
     Example: xei calibrate hand_eye.yaml --write
     """
@@ -59,6 +60,7 @@ def _calibrate(
         return _show(problems, colored)
     optional("xei_lang.world.calibration.hand_eye", colored)
     from xei_lang.world.calibration.hand_eye import Unsolved, solve_hand_eye
+    from xei_lang.world.calibration.outcome import jump_warning, outcome
     from xei_lang.world.calibration.recording import read_recording
 
     recording, problems = read_recording(source, lab)
@@ -72,7 +74,9 @@ def _calibrate(
         return _show((solved.diagnostic(),), colored)
     if not quiet:
         click.echo(_summary(solved), err=True)
-    measured = _measured(recording, solved)
+    measured = outcome(recording, solved)
+    if not quiet:
+        _show(jump_warning(recording.frame, measured), colored)
     return _show(_deliver(measured, lab, output, write=write, quiet=quiet), colored)
 
 
@@ -93,27 +97,11 @@ def _deliver(
     text = put_in(source, measured)
     if isinstance(text, Diagnostic):
         return (text,)
-    problems = rewrite_text(file, text)
+    problems = rewrite_text(file, text) if text != source.text else ()
     if not problems and not quiet:
-        click.echo(f"`frames.{measured.frame}` of {file} is measured now", err=True)
+        told = "is measured now; what it was is in its history" if text != source.text else "stands there"
+        click.echo(f"`frames.{measured.frame}` of {file} {told}", err=True)
     return problems
-
-
-def _measured(recording: Recording, solved: HandEye) -> Measured:
-    from xei_lang.world.calibration.measured import Measured
-
-    return Measured(
-        frame=recording.frame.name,
-        parent=recording.frame.parent,
-        T_parent_frame=solved.T_parent_camera,
-        measured_on=recording.recorded_on,
-        method=(
-            f"hand-eye calibration from {solved.samples} samples with tags on {recording.target}, residuals "
-            f"{solved.noise_text()}; the tolerance is three standard deviations"
-        ),
-        position_std_m=solved.position_std_m,
-        rotation_std_rad=solved.rotation_std_rad,
-    )
 
 
 def _summary(solved: HandEye) -> str:

@@ -13,6 +13,7 @@ from xei_lang.cli.report import exit_code, show
 from xei_lang.cli.worlds import observed_in
 from xei_lang.diagnostics import Diagnostic, Diagnostics, has_errors
 from xei_lang.profiles.model import Camera, Profile
+from xei_lang.world.perception.cameras import camera_named
 
 MAX_IMAGE_BYTES = 100_000_000
 
@@ -27,23 +28,29 @@ def command() -> None:
 
 @command.command("detect")
 @click.argument("image", type=click.Path(path_type=Path), metavar="IMAGE")
+@click.option(
+    "--camera", "camera_name", metavar="NAME", help="Whose image it is; needed where there are several."
+)
 @click.option("--profile", metavar="NAME|FOLDER", help="The profile; needed where there are several.")
 @click.option("--format", "form", type=click.Choice(["text", "json"]), default="text", show_default=True)
 @click.option("--quiet", is_flag=True, help="Print what was found and errors only.")
 @click.option("--color", type=click.Choice(["auto", "always", "never"]), default="auto", show_default=True)
-def detect(*, image: Path, profile: str | None, form: str, quiet: bool, color: str) -> None:
+def detect(
+    *, image: Path, camera_name: str | None, profile: str | None, form: str, quiet: bool, color: str
+) -> None:
     """Find AprilTags in an image, and say where the tables stand.
 
-    The base is taken to stand at the station of each table. The exit code is 0 where every table that is seen
-    stands within the tolerance that the profile states for it, else 1.
+    The base is taken to stand at the station of each table, where it carries the camera. The exit code is 0
+    where every table that is seen stands within the tolerance that the profile states for it, else 1.
 
     Example: xei perception detect bench.png --format json
     """
     colored = wants_color(color)
     lab = open_lab(profile, colored)
-    camera = next(iter(lab.calibration.cameras), None)
-    if camera is None:
-        said: Diagnostics = (Diagnostic("XEI0680", "the profile has no camera", help=(_NO_CAMERA,)),)
+    camera = camera_named(lab, camera_name)
+    said: Diagnostics
+    if isinstance(camera, Diagnostic):
+        said = (camera,)
     else:
         said = _detect(image, lab, camera, form, quiet=quiet, colored=colored)
     show(said, {}, colored)
@@ -114,9 +121,6 @@ def serve(
                            upstream=upstream, quiet=quiet)  # fmt: skip
     show(said, {}, colored)
     sys.exit(exit_code(said))
-
-
-_NO_CAMERA = "describe it under `cameras` of `calibration_profile.yaml`"
 
 
 def _detect(

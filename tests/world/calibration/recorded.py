@@ -45,7 +45,7 @@ def recorded(seed: int, count: int, *, form: str = "tags", noise_px: float = 0.0
             profile.robot, joints
         )
         T_optical_board = (CAMERA_TRUTH @ T_CAMERA_OPTICAL).inverse() @ T_slide_tool @ T_TOOL_BOARD
-        seen = _seen(T_optical_board, random, noise_px)
+        seen = seen_by(T_optical_board, random, noise_px)
         if seen is None:
             continue
         if form == "tags":
@@ -60,7 +60,9 @@ def recorded(seed: int, count: int, *, form: str = "tags", noise_px: float = 0.0
     return {**document, **({"board": BOARD} if form == "tags" else {}), "samples": samples}
 
 
-def _seen(T_optical_board: Pose, random: np.random.Generator, noise_px: float) -> list[dict[str, Any]] | None:
+def seen_by(
+    T_optical_board: Pose, random: np.random.Generator, noise_px: float
+) -> list[dict[str, Any]] | None:
     """The board's tags in the image, or None where it is not before the camera and turned towards it."""
     T, lens = matrix_of(T_optical_board), Optics.of(camera())
     tags: list[dict[str, Any]] = []

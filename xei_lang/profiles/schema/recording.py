@@ -53,12 +53,14 @@ class RecordingModel(Model):
 
     `camera` is one of the profile's cameras; `target` is the frame of the robot that the tags are fixed to,
     whose place on it need not be known: `robot_base` for tags that stand still while the camera is carried
-    about, `left_tool` for tags in a hand that a camera on the body looks at. `board` is their layout.
+    about, `left_tool` for tags in a hand that a camera on the body or in the room looks at. `board` is their
+    layout. `station` is where the base stood, for a camera that the robot does not carry.
     """
 
     version: Literal[1]
     recorded_on: Annotated[str, Field(pattern=r"^[0-9]{4}-[0-9]{2}-[0-9]{2}$")]
     camera: Name
     target: Name
+    station: Name | None = None
     board: Annotated[list[BoardTagModel], Field(max_length=1000)] = Field(default=[])
     samples: Annotated[list[SampleModel], Field(min_length=1, max_length=10000)]

@@ -1,12 +1,19 @@
-"""What the robot moves between two frames of a calibration profile: links, and the joints on the way."""
+"""What the robot moves between two frames of a calibration profile: links, and the joints on the way.
+
+A frame that hangs on `world` is told from the base, which stands still at a station.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from xei_lang.ir.geometry import IDENTITY, Pose
-from xei_lang.profiles.model import Profile, RobotDescription, RobotJoint
-from xei_lang.world.frames import T_base_link
+from xei_lang.ir.world import World
+from xei_lang.profiles.model import Profile, RobotDescription, RobotJoint, SceneOrigin
+from xei_lang.world.frames import T_base_link, frame_tree, start_state
+from xei_lang.world.transforms import lookup
+
+BASE = "robot_base"
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +40,34 @@ def carried(profile: Profile, frame: str) -> Carried | None:
         pose = frames[name].T_parent_frame @ pose
         name = frames[name].parent
     return Carried(frame, links[name], pose)
+
+
+def standing(profile: Profile, frame: str, station: str) -> Carried | None:
+    """How a frame that hangs on `world` lies to the robot while its base stands at a station; None for one
+    that the robot carries, or where there is no such station.
+    """
+    origin = next((one for one in profile.calibration.stations if one.name == station), None)
+    frames = {one.name: one for one in profile.calibration.frames}
+    pose, name = IDENTITY, frame
+    while name in frames:
+        pose, name = frames[name].T_parent_frame @ pose, frames[name].parent
+    if name != "world" or origin is None:
+        return None
+    return Carried(frame, profile.robot.root, origin.T_world_base.inverse() @ pose)
+
+
+def standing_at(profile: Profile, station: SceneOrigin) -> World:
+    """The frames of a deployment with the base at a station, without objects."""
+    state = replace(start_state(profile), station=station.name, T_world_base=station.T_world_base)
+    return World(frame_tree(profile, state), (), state)
+
+
+def before_base(profile: Profile, frame: str, standing: World) -> Carried:
+    """A frame that the robot does not carry, as it stands before the base. KeyError for one that is not
+    there.
+    """
+    link = dict(profile.calibration.robot_frames)[BASE]
+    return Carried(frame, link, lookup(standing, BASE, frame).T_target_source)
 
 
 def joints_between(robot: RobotDescription, first: str, second: str) -> tuple[RobotJoint, ...]:

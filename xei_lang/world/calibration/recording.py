@@ -2,7 +2,8 @@
 
 With `A = T_target_parent` by forward kinematics, `X = T_parent_camera` that is looked for, `B` the pose of
 the board that the camera saw and `Z = T_target_board` that stays the same: `A X B = Z` for each sample. That
-holds for a camera in the hand (the target stands still) and for one on the body (the hand holds the target).
+holds for a camera in the hand (the target stands still), and for one on the body or in the room (the hand
+holds the target). A camera in the room needs the station that the base stood at.
 """
 
 from __future__ import annotations
@@ -15,13 +16,14 @@ from pydantic import ValidationError
 
 from xei_lang.diagnostics import Diagnostic, Diagnostics, Source, did_you_mean
 from xei_lang.ir.geometry import Pose
+from xei_lang.ir.world import World
 from xei_lang.profiles.faults import explain
 from xei_lang.profiles.model import CalibratedFrame, Camera, Profile, RobotJoint
 from xei_lang.profiles.schema.recording import RecordingModel, SampleModel, SeenPoseModel
 from xei_lang.profiles.yaml_reader import read_yaml
 from xei_lang.profiles.yaml_tree import Node
 from xei_lang.world.calibration.board import Board, see_board
-from xei_lang.world.calibration.carriers import Carried, carried, joints_between
+from xei_lang.world.calibration.carriers import Carried, carried, joints_between, standing
 from xei_lang.world.calibration.sample import Sample
 from xei_lang.world.perception.optics import T_CAMERA_OPTICAL, Optics, matrix_of
 
@@ -32,13 +34,17 @@ _RANGE_SLACK = 0.02
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Recording:
-    """What is to be solved: `frame` is the camera's frame, as the profile has it now."""
+    """What is to be solved: `frame` is the camera's frame, as the profile has it now; `station` is where the
+    base stood, for a camera in the room.
+    """
 
     recorded_on: str
     camera: Camera
     frame: CalibratedFrame
     target: str
     samples: tuple[Sample, ...]
+    standing: World | None = None
+    station: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -50,6 +56,7 @@ class _Setting:
     target: Carried
     moving: tuple[RobotJoint, ...]
     board: Board
+    standing: World | None
 
 
 def read_recording(source: Source, profile: Profile) -> tuple[Recording | None, Diagnostics]:
@@ -74,7 +81,9 @@ def read_recording(source: Source, profile: Profile) -> tuple[Recording | None, 
         )
     if found:
         return None, tuple(found)
-    return Recording(model.recorded_on, setting.camera, setting.frame, model.target, usable), ()
+    in_room = model.station or "" if carried(profile, setting.frame.parent) is None else ""
+    recording = Recording(model.recorded_on, setting.camera, setting.frame, model.target, usable, in_room)
+    return recording, ()
 
 
 def _recoded(fault: Diagnostic) -> Diagnostic:
@@ -93,20 +102,48 @@ def _setting(model: RecordingModel, profile: Profile, root: Node, found: list[Di
         )
         return None
     frame = next((one for one in calibration.frames if one.name == camera.frame), None)
-    parent = carried(profile, frame.parent) if frame else None
     target = carried(profile, model.target)
-    if frame is None or parent is None:
-        message = f"`{camera.frame}`, the frame of the camera `{camera.name}`, does not ride on the robot"
-        help_ = "hang it on the robot's frame that the camera is screwed to, such as `robot_base`"
-        found.append(Diagnostic(_CODE, message, root.span_of("camera"), help=(help_,)))
     if target is None:
         known = [name for name, _ in calibration.robot_frames]
         found.append(_unknown("frame that the robot carries", model.target, known, root, "target"))
-    if frame is None or parent is None or target is None:
+    if frame is None:
+        message = f"`{camera.frame}`, the frame of the camera `{camera.name}`, is the robot's own"
+        help_ = "give the camera a frame of its own under `frames`, which can be calibrated"
+        found.append(Diagnostic(_CODE, message, root.span_of("camera"), help=(help_,)))
+        return None
+    parent, standing = _parent(model, profile, frame, root, found)
+    if parent is None or target is None:
         return None
     moving = joints_between(profile.robot, parent.link, target.link)
+    if not moving:
+        message = f"no joint moves `{target.frame}` against `{frame.name}`: every sample is the same"
+        help_ = "fix the tags to what the robot moves before the camera, and name that frame"
+        found.append(Diagnostic(_CODE, message, root.span_of("target"), help=(help_,)))
+        return None
     board = Board.of(model.board, Optics.of(camera))
-    return _Setting(profile, camera, frame, parent, target, moving, board)
+    return _Setting(profile, camera, frame, parent, target, moving, board, standing)
+
+
+def _parent(
+    model: RecordingModel, profile: Profile, frame: CalibratedFrame, root: Node, found: list[Diagnostic]
+) -> tuple[Carried | None, World | None]:
+    """What the camera's frame hangs on, as the robot carries it or as it stands before the base."""
+    parent = carried(profile, frame.parent)
+    if parent is not None:
+        return parent, None
+    stations = {one.name: one for one in profile.calibration.stations}
+    if model.station is None:
+        message = f"`{frame.name}` hangs on `{frame.parent}`, and nothing says where the robot stood"
+        help_ = "name the station that the base stood at in all samples: `station: ...`"
+        note = "known: " + ", ".join(f"`{name}`" for name in stations)
+        found.append(Diagnostic(_CODE, message, root.span_of("camera"), notes=(note,), help=(help_,)))
+        return None, None
+    station = stations.get(model.station)
+    if station is None:
+        found.append(_unknown("station", model.station, list(stations), root, "station"))
+        return None, None
+    standing = standing_at(profile, station)
+    return before_base(profile, frame.parent, standing), standing
 
 
 def _sample(

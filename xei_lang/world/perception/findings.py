@@ -105,12 +105,13 @@ def _anchor_lines(frame: str, anchor: FrameAnchor, verified: Verified | None) ->
         return lines
     apart, stated = verified.deviation, verified.stated
     verdict = "within" if apart.within else "out of"
+    seen_from = f"from {verified.station}" if verified.by_base else "by a camera that stands still"
     return [
         *lines,
         f"  in robot_base   {pose_text(verified.T_base_frame)}",
         f"  expected there  {pose_text(verified.expected_T_base_frame)}",
         f"  {1e3 * apart.position_m:.2f} mm and {math.degrees(apart.rotation_rad):.3f} deg apart, {verdict} "
-        f"the tolerance of {_allowed(stated)}, from {verified.station}",
+        f"the tolerance of {_allowed(stated)}, {seen_from}",
     ]
 
 
@@ -158,13 +159,15 @@ def _off(frame: str, verified: Verified) -> Diagnostic:
     )
     allowed = _allowed(stated)
     measured = pose_text(verified.T_parent_found)
+    rests_on, if_so = "the camera stands still in the world", "if the camera is calibrated"
+    if verified.by_base:
+        rests_on = f"the base is taken to stand at `{verified.station}`"
+        if_so = "if the robot stands there and its camera is calibrated"
     return Diagnostic(
         "XEI0683",
         message,
-        notes=(f"its tolerance is {allowed}; the base is taken to stand at `{verified.station}`",),
-        help=(
-            f"if the robot stands there and its camera is calibrated, write in `frames.{frame}`: {measured}",
-        ),
+        notes=(f"its tolerance is {allowed}; {rests_on}",),
+        help=(f"{if_so}, write in `frames.{frame}`: {measured}",),
     )
 
 

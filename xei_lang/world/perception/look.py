@@ -12,6 +12,7 @@ from xei_lang.ir.geometry import Pose
 from xei_lang.ir.world import Frame, World
 from xei_lang.profiles.model import Camera, Profile, TagLayout
 from xei_lang.world.frames import frame_tree, slide_joint, start_state
+from xei_lang.world.perception.cameras import is_carried
 from xei_lang.world.perception.detect_tags import TagDetection, detect_tags
 from xei_lang.world.perception.frame_anchor import FrameAnchor, anchor_frame
 from xei_lang.world.perception.image import gray_image
@@ -33,10 +34,12 @@ class Verified:
     """An anchor beside the profile: `T_base_frame` as found and as expected, and how far they are apart.
 
     `stated` is the frame as the profile has it, `T_parent_found` what its `T_parent_frame` would be by this.
-    `station` is where the base is taken to stand, with the slide at that station's height.
+    `station` is where the base is taken to stand, with the slide at that station's height; it decides what is
+    found only where the robot carries the camera (`by_base`).
     """
 
     station: str
+    by_base: bool
     T_base_frame: Pose
     expected_T_base_frame: Pose
     stated: Frame
@@ -84,5 +87,11 @@ def verify(profile: Profile, camera: Camera, anchor: FrameAnchor) -> Verified | 
     T_parent_found = lookup(world, stated.parent, "robot_base").T_target_source @ T_base_found
     expected = lookup(world, "robot_base", anchor.frame).T_target_source
     return Verified(
-        station.name, T_base_found, expected, stated, T_parent_found, verify_transform(stated, T_parent_found)
+        station.name,
+        is_carried(profile, camera),
+        T_base_found,
+        expected,
+        stated,
+        T_parent_found,
+        verify_transform(stated, T_parent_found),
     )

@@ -15,6 +15,7 @@ from xei_lang.ir.world import World
 from xei_lang.profiles.model import Profile
 from xei_lang.world.frames import frame_tree, start_state
 from xei_lang.world.perception.acceptance import Accepted, Criteria, Evidence, accept, stale
+from xei_lang.world.perception.cameras import camera_at
 from xei_lang.world.perception.client import PoseClient
 from xei_lang.world.perception.optics import Optics, matrix_of
 from xei_lang.world.perception.pictures import depth_image, mask_image
@@ -128,7 +129,7 @@ def judge(
         if isinstance(found, PoseRefused):
             refused.append(found)
         else:
-            kept.append(_observation(item, found, answer))
+            kept.append(_observation(item, found, answer, camera_at(profile, picture.camera_frame)))
     refused += [_missing(name) for name in asked]
     kept.sort(key=lambda item: item.name)
     source = f"pose_service {url}"
@@ -141,7 +142,7 @@ def _at_start(profile: Profile) -> World:
     return World(frame_tree(profile, state), (), state)
 
 
-def _observation(item: ObjectPose, found: Accepted, answer: PoseResponse) -> Observation:
+def _observation(item: ObjectPose, found: Accepted, answer: PoseResponse, camera: str) -> Observation:
     proof = [("agreeing", f"{found.agreeing:.3f}"), ("residual_m", f"{found.residual_m:.5f}")]
     if found.overlap is not None:
         proof.append(("mask_overlap", f"{found.overlap:.3f}"))
@@ -153,6 +154,7 @@ def _observation(item: ObjectPose, found: Accepted, answer: PoseResponse) -> Obs
         stamp_ns=answer.stamp_ns,
         covariance=roll_pitch_yaw(item.covariance, found.T_output_object),
         metadata=(
+            ("pose_service.camera", camera),
             ("pose_service.model", answer.model_version),
             *((f"pose_service.{k}", v) for k, v in proof),
         ),

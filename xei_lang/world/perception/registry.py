@@ -16,8 +16,8 @@ from xei_lang.world.perception.pose_request import MeshInfo
 class RegisteredObject:
     """An object as a pose service knows it.
 
-    `mesh.sha256` is that of its mesh file; an object without one has the hash of its primitives in the form
-    of `scene.json`, on one line.
+    `mesh.sha256` is that of its mesh file, in the file's unit; an object without one has the hash of its
+    primitives in the form of `scene.json`, on one line, in metres.
     """
 
     name: str
@@ -49,14 +49,14 @@ class Registry:
 
 def registry_of(profile: Profile) -> Registry:
     """The registry of a profile: its objects and those of the room."""
-    files = dict(profile.files)
-    return Registry(tuple(_registered(item, files) for item in sorted(profile.objects, key=_name)))
+    return Registry(tuple(_registered(item) for item in sorted(profile.objects, key=_name)))
 
 
-def _registered(item: LabObject, files: dict[str, str]) -> RegisteredObject:
-    known = files.get(dict(item.assets).get("mesh") or "")
-    sha256 = known or _sha256([primitive(part) for part in item.geometry])
-    return RegisteredObject(item.name, item.roles, item.skills, MeshInfo(sha256, "m", item.size_m))
+def _registered(item: LabObject) -> RegisteredObject:
+    mesh = next((model for model in item.models if model.what == "mesh"), None)
+    sha256 = mesh.sha256 if mesh else _sha256([primitive(part) for part in item.geometry])
+    info = MeshInfo(sha256, mesh.units if mesh else "m", item.size_m)
+    return RegisteredObject(item.name, item.roles, item.skills, info)
 
 
 def _json(item: RegisteredObject) -> Json:
