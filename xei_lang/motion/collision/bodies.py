@@ -27,12 +27,15 @@ class StaticBody:
 
 @dataclass(frozen=True, slots=True)
 class AttachedBody:
-    """An object fixed in an arm's tool frame. It may touch the fingers that hold it."""
+    """An object fixed in an arm's tool frame. It may touch the fingers that hold it; where it `rides_on`
+    another one that they hold, it may touch that one, and what else rides there, but not the fingers.
+    """
 
     name: str
     primitives: tuple[Primitive, ...]
     side: Side
     T_tool_object: Pose
+    rides_on: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,12 +83,13 @@ def _add(model: Any, body: StaticBody | AttachedBody, joint: int, T_joint_object
     for index, primitive in enumerate(body.primitives):
         placement = T_joint_object * pin.SE3(np.array(primitive.T_object_shape.matrix()))
         model.addGeometryObject(
-            pin.GeometryObject(f"{body.name}#{index}", joint, 0, placement, _coal_shape(primitive.shape))
+            pin.GeometryObject(f"{body.name}#{index}", joint, 0, placement, coal_shape(primitive.shape))
         )
     return [body.name] * len(body.primitives)
 
 
-def _coal_shape(shape: Shape) -> Any:
+def coal_shape(shape: Shape) -> Any:
+    """The collision shape of a primitive."""
     match shape:
         case Box(size_m):
             return coal.Box(*size_m)

@@ -51,8 +51,9 @@ class CollisionScene:
     first asked.
 
     Configurations `q` (nq,) are whole ones, fingers included: a hand's opening stands in `q`. Pairs in
-    `allowed` may touch, as may the SRDF's disabled pairs, a held object and its fingers, and what no joint
-    moves against each other. `padding_m` is kept between what stands and what moves.
+    `allowed` may touch, as may the SRDF's disabled pairs, a held object and its fingers, what rides on a held
+    object and that, and what no joint moves against each other. `padding_m` is kept between what stands and
+    what moves.
     """
 
     robot: Robot
@@ -168,9 +169,7 @@ class CollisionScene:
         """Upper triangle (g, g) of pairs that may not touch."""
         ignored = {frozenset(pair) for pair in (*self.robot.disabled_pairs, *self.allowed)}
         for body in self.attached:
-            ignored |= {
-                frozenset((body.name, f"openarm_{body.side}_{finger}_finger")) for finger in ("left", "right")
-            }
+            ignored |= self._own_contacts(body)
         order = {name: index for index, name in enumerate(dict.fromkeys(geometry.names))}
         may_not_touch = np.ones((len(order), len(order)), dtype=np.bool_)
         for pair in ignored:
@@ -185,6 +184,14 @@ class CollisionScene:
             | geometry.held[None, :]
         )
         return np.triu(may_not_touch[body[:, None], body[None, :]] & apart, 1)
+
+    def _own_contacts(self, body: AttachedBody) -> set[frozenset[str]]:
+        """What may touch an attached body because of how it is attached."""
+        if not body.rides_on:
+            fingers = (f"openarm_{body.side}_{finger}_finger" for finger in ("left", "right"))
+            return {frozenset((body.name, finger)) for finger in fingers}
+        together = (item.name for item in self.attached if body.rides_on in (item.name, item.rides_on))
+        return {frozenset((body.name, name)) for name in together if name != body.name}
 
 
 def collision_scene(

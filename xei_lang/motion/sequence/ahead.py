@@ -10,6 +10,7 @@ from xei_lang.ir.goals import Detach, JointTarget, MotionGoal, MoveTo, NavToPose
 from xei_lang.ir.skill_plan import Side
 from xei_lang.motion.sequence.choose import Array
 from xei_lang.motion.sequence.context import Context
+from xei_lang.motion.sequence.enact import left
 from xei_lang.motion.sequence.group import Ahead
 from xei_lang.motion.sequence.parting import parting_of
 from xei_lang.motion.sequence.rehearse import Rehearsal, rehearse_group
@@ -62,7 +63,7 @@ def _passed(context: Context, goal: MotionGoal, now: Snapshot) -> Snapshot:
     if isinstance(action, NavToPose):
         return replace(now, T_world_base=action.T_world_base)
     if isinstance(action, Detach):
-        return now.detached(action.arm, action.T_base_object)
+        return left(context, action, action.T_base_object, now)
     target = _named(goal)
     if target is None:
         return now

@@ -76,13 +76,13 @@ def _tool(robot: Robot, motion: Motion) -> Pose | None:
 
 
 def loaded_robot(context: Context, motion: Motion) -> Robot:
-    """The robot with the mass of what its hands hold while the motion runs."""
+    """The robot with the mass of what its hands carry while the motion runs."""
     robot = context.robot
-    for side, held in sorted(motion.before.held.items()):
-        item = context.world.find(held.object)
+    for carried in motion.before.carried():
+        item = context.world.find(carried.object)
         if item is not None and item.mass_kg > 0.0:
             middle = (0.0, 0.0, item.size_m[2] / 2)
-            robot = robot.with_payload(side, item.mass_kg, held.T_tool_object.apply(middle))
+            robot = robot.with_payload(carried.side, item.mass_kg, carried.T_tool_object.apply(middle))
     return robot
 
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from xei_lang.diagnostics import Diagnostic
 from xei_lang.ir.goals import Attach, Detach, JointTarget, MotionGoal, MoveTo, SlideMove
+from xei_lang.ir.world import WorldObject
 from xei_lang.motion.paths.free import PathBlocked
 from xei_lang.motion.sequence.context import Context
 from xei_lang.motion.sequence.fixed import plan_fixed
@@ -81,11 +82,10 @@ def _help(context: Context, bodies: tuple[str, ...], before: Snapshot, again: Ag
     found: list[str] = []
     for name in bodies:
         item = context.world.find(name)
-        if item is not None and name in before.standing:
-            standing = {other: pose for other, pose in before.standing.items() if other != name}
-            if isinstance(again(replace(before, standing=standing)), Motion):
-                mend = "move it away" if item.movable else "check where the usage profile says it stands"
-                found.append(f"without `{name}` there is a way: {mend} first")
+        if item is None or name not in before.standing:
+            continue
+        if isinstance(again(before.without(name)), Motion):
+            found.append(f"without `{name}` there is a way: {_mend(item, before)} first")
     for side, arm in context.robot.arms.items():
         if any(name.startswith(f"openarm_{side}") for name in bodies) and side not in before.held:
             q, ready = before.q.copy(), context.robot.configuration("ready")
@@ -93,6 +93,12 @@ def _help(context: Context, bodies: tuple[str, ...], before: Snapshot, again: Ag
             if (q != before.q).any() and isinstance(again(before.moved(q)), Motion):
                 found.append(f"with the {side} arm at `ready` there is a way: move that arm away first")
     return tuple(found)
+
+
+def _mend(item: WorldObject, before: Snapshot) -> str:
+    if item.name in before.riding:
+        return f"unscrew it from `{before.riding[item.name].carrier}`"
+    return "move it away" if item.movable else "check where the usage profile says it stands"
 
 
 def who(goal: MotionGoal) -> str:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from xei_lang.motion.kinematics import Solver
 from xei_lang.motion.sequence.context import Context
 from xei_lang.motion.sequence.group import Unplaced
-from xei_lang.motion.sequence.layers import THOROUGH, feasible
+from xei_lang.motion.sequence.layers import THOROUGH, feasible, on_line
 from xei_lang.motion.sequence.reach import chain_poses, tried_heights
 from xei_lang.motion.sequence.rehearse import Rehearsal
 from xei_lang.motion.sequence.space import target_contact
@@ -21,6 +21,7 @@ from xei_lang.motion.sequence.space import target_contact
 Array = NDArray[np.float64]
 
 _CONFIGURATIONS_ASKED = 12
+_OFF_LINE, _UNTAKEN = "off line", "untaken"  # no bodies: names have no space
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,7 +30,7 @@ class Census:
     first.
 
     Each grasp is counted once, by how far it came: reach, joint limits, contact, straight line. `neighbours`
-    are the movable objects among the bodies.
+    are the movable objects among the bodies that stand by themselves.
     """
 
     total: int
@@ -37,6 +38,7 @@ class Census:
     past_limits: int
     bodies: tuple[tuple[str, int], ...]
     off_line: int
+    untaken: int
     neighbours: tuple[str, ...]
 
     @property
@@ -60,16 +62,23 @@ def take_census(context: Context, failure: Unplaced) -> Census:
     ]
     touched: Counter[str] = Counter()
     for member in sorted(reached):
-        index = np.flatnonzero(rows.member == member)
-        name = _touched(context, failure, rows.q[index], member)
+        own = rows.kept(np.flatnonzero(rows.member == member))
+        name = _touched(context, failure, own.q, member)
+        if not name:
+            fell = any(touch.member == member for touch in failure.struck)
+            straight = len(on_line(solver, poses, own, chain.legs)) > 0 and not fell
+            name = _UNTAKEN if straight else _OFF_LINE
         touched[name] += 1
-    off_line = touched.pop("", 0)
+    off_line, untaken = touched.pop(_OFF_LINE, 0), touched.pop(_UNTAKEN, 0)
     bodies = tuple(sorted(touched.items(), key=lambda item: (-item[1], item[0])))
+    riding = rehearsal.before.riding
     neighbours = tuple(
-        name for name, _ in bodies if (item := context.world.find(name)) is not None and item.movable
+        name
+        for name, _ in bodies
+        if name not in riding and (item := context.world.find(name)) is not None and item.movable
     )
     return Census(
-        len(members), len(far), len(members) - len(reached) - len(far), bodies, off_line, neighbours
+        len(members), len(far), len(members) - len(reached) - len(far), bodies, off_line, untaken, neighbours
     )
 
 
@@ -81,9 +90,7 @@ def _out_of_reach(solver: Solver, poses: Array, heights: Array) -> bool:
 
 
 def _touched(context: Context, failure: Unplaced, q: Array, member: int) -> str:
-    """The body that a member's configurations (n, targets, 8) meet most often; empty where only its straight
-    line fails.
-    """
+    """The body that a member's configurations (n, targets, 8) meet most often; empty where they meet none."""
     rehearsal, names = failure.rehearsal, Counter[str]()
     picked = np.linspace(0, len(q) - 1, min(len(q), _CONFIGURATIONS_ASKED)).round().astype(int)
     for row in picked:
@@ -101,7 +108,9 @@ def culprit(context: Context, rehearsal: Rehearsal, pair: tuple[str, str]) -> st
     than a link.
     """
     chain = rehearsal.chain
-    own = {action.object for action in (chain.attach, chain.detach) if action is not None}
+    handled = {action.object for action in (chain.attach, chain.detach) if action is not None}
+    riders = {rider for name in handled for rider, _ in rehearsal.before.riders(name)}
+    own = handled | riders
     objects = [name for name in pair if context.world.find(name) is not None and name not in own]
     if objects:
         return objects[0]

@@ -22,7 +22,7 @@ from xei_lang.motion.sequence.legs import JUMP_RAD, tool_path
 from xei_lang.motion.sequence.motions import Motion
 from xei_lang.motion.sequence.poses import pose_of
 from xei_lang.motion.sequence.sections import Chain
-from xei_lang.motion.sequence.snapshot import UNCHOSEN, Held, Snapshot
+from xei_lang.motion.sequence.snapshot import UNCHOSEN, Held, Ride, Snapshot
 
 Array = NDArray[np.float64]
 
@@ -144,12 +144,32 @@ def _hand_action(
         after = before.attached(action.arm, held)
         return Motion(goal, before, after, arm=action.arm, choice=told)
     if isinstance(action, Detach):
-        held = before.held[action.arm]
-        T_base_object = pose_of(layer.poses[target, member]) @ held.T_tool_object
-        after = before.detached(action.arm, T_base_object)
-        placed = (Placement(held.object, T_base_object),)
-        return Motion(goal, before, after, arm=action.arm, placed=placed, choice=told)
+        T_base_object = pose_of(layer.poses[target, member]) @ before.held[action.arm].T_tool_object
+        return replace(leave(context, goal, action, T_base_object, before), choice=told)
     return still(goal, before)
+
+
+def leave(
+    context: Context, goal: MotionGoal, action: Detach, T_base_object: Pose, before: Snapshot
+) -> Motion:
+    """A hand lets go of its object at a pose in the base frame, and of what rides on it."""
+    after = left(context, action, T_base_object, before)
+    riders = before.riders(action.object)
+    placed = (
+        Placement(action.object, T_base_object),
+        *(Placement(rider, T_base_object @ T_object_rider) for rider, T_object_rider in riders),
+    )
+    return Motion(goal, before, after, arm=action.arm, placed=placed)
+
+
+def left(context: Context, action: Detach, T_base_object: Pose, before: Snapshot) -> Snapshot:
+    """The state after a hand has let go, what it let go of fastened where the action says so."""
+    if not action.fastened_to:
+        return before.detached(action.arm, T_base_object)
+    # A carrier in a hand whose grasp is not chosen yet is nowhere, and its riders with it.
+    T_base_carrier = where(context, action.fastened_to, before) or T_base_object
+    ride = Ride(action.fastened_to, T_base_carrier.inverse() @ T_base_object)
+    return before.detached(action.arm, T_base_object, ride)
 
 
 def still(goal: MotionGoal, before: Snapshot, duration_s: float | None = None) -> Motion:
@@ -167,6 +187,10 @@ def take(context: Context, chain: Chain, action: Attach, target: int, member: in
 def where(context: Context, name: str, before: Snapshot) -> Pose | None:
     """Where an object is in the base frame; None in a hand by a grasp that is not chosen yet."""
     giver = next(iter(before.holders(name)), None)
+    if giver is None and name not in before.standing and name in before.riding:
+        ride = before.riding[name]
+        T_base_carrier = where(context, ride.carrier, before)
+        return None if T_base_carrier is None else T_base_carrier @ ride.T_carrier_rider
     if giver is None:
         return before.T_base_object(name)
     if before.held[giver].member == UNCHOSEN:

@@ -19,11 +19,10 @@ from xei_lang.ir.goals import (
     SlideMove,
     Wait,
 )
-from xei_lang.ir.timed import Placement
 from xei_lang.motion.paths.free import PathBlocked
 from xei_lang.motion.sequence.both_arms import plan_joints
 from xei_lang.motion.sequence.context import Context
-from xei_lang.motion.sequence.enact import grip, still, where
+from xei_lang.motion.sequence.enact import grip, leave, still, where
 from xei_lang.motion.sequence.motions import Motion
 from xei_lang.motion.sequence.snapshot import Snapshot
 
@@ -56,9 +55,7 @@ def plan_fixed(context: Context, goal: MotionGoal, before: Snapshot) -> Motion |
 def let_go(context: Context, goal: MotionGoal, action: Detach, before: Snapshot) -> Motion:
     """A hand leaves its object to the other hand, where it is."""
     T_base_object = where(context, action.object, before) or action.T_base_object
-    placed = (Placement(action.object, T_base_object),)
-    after = before.detached(action.arm, T_base_object)
-    return Motion(goal, before, after, arm=action.arm, placed=placed)
+    return leave(context, goal, action, T_base_object, before)
 
 
 def _still_s(goal: MotionGoal) -> float:

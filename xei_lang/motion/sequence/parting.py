@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from xei_lang.ir.goals import Detach, Grip, MotionGoal
 from xei_lang.motion.paths.free import PathBlocked
 from xei_lang.motion.sequence.context import Context
-from xei_lang.motion.sequence.enact import grip
+from xei_lang.motion.sequence.enact import grip, left
 from xei_lang.motion.sequence.onward import goes_on, onward_layer
 from xei_lang.motion.sequence.sections import Chain, Group, Part
 from xei_lang.motion.sequence.snapshot import Snapshot
@@ -46,7 +46,7 @@ def parting_touch(context: Context, parting: Parting, now: Snapshot, member: int
                 return Touch(member, bodies)
             now = motion.after
         elif isinstance(goal.action, Detach):
-            now = now.detached(goal.action.arm, goal.action.T_base_object)
+            now = left(context, goal.action, goal.action.T_base_object, now)
     layer = onward_layer(context, parting.chain, now)
     if len(layer) == 0:
         return Touch(member, None)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from xei_lang.ir.goals import Attach, Detach, Grip, MotionGoal, MoveTo
 from xei_lang.motion.sequence.context import Context
-from xei_lang.motion.sequence.enact import take
+from xei_lang.motion.sequence.enact import left, take
 from xei_lang.motion.sequence.sections import Chain, Group
 from xei_lang.motion.sequence.snapshot import UNCHOSEN, Snapshot
 
@@ -44,7 +44,7 @@ def rehearse(context: Context, chain: Chain, before: Snapshot) -> Rehearsal:
         elif isinstance(action, Attach):
             now = now.attached(action.arm, take(context, chain, action, len(moments) - 1, UNCHOSEN, now))
         elif isinstance(action, Detach) and action.arm in now.held:
-            now = now.detached(action.arm, action.T_base_object)
+            now = left(context, action, action.T_base_object, now)
     return Rehearsal(chain, before, tuple(moments), now)
 
 

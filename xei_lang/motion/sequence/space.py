@@ -3,25 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from xei_lang.ir.geometry import Pose
 from xei_lang.ir.skill_plan import Side
 from xei_lang.motion.collision import AttachedBody, CollisionScene, StaticBody
 from xei_lang.motion.sequence.choose import Bools
 from xei_lang.motion.sequence.context import Context
 from xei_lang.motion.sequence.motions import Motion
 from xei_lang.motion.sequence.rehearse import Rehearsal
-from xei_lang.motion.sequence.snapshot import UNCHOSEN, Snapshot
+from xei_lang.motion.sequence.snapshot import UNCHOSEN, Carried, Snapshot
 
 Array = NDArray[np.float64]
 Pair = tuple[str, str]
 _GLANCE_RAD = 0.08
-
-Carried = tuple[Side, str, Pose]
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,17 +35,14 @@ def scene_of(
     context: Context, snapshot: Snapshot, allowed: tuple[Pair, ...], aside: Side | None = None
 ) -> CollisionScene:
     """The scene of a snapshot in the base frame, pairs in `allowed` left out; without what the hand `aside`
-    holds. What two hands hold is carried by one of them: between them nothing moves.
+    holds and what rides on it. What two hands hold is carried by one of them: between them nothing moves.
 
     Scenes of equal content are one scene: compiling one takes longer than asking it a hundred questions.
     """
-    hands: dict[str, Carried] = {
-        held.object: (side, held.object, held.T_tool_object)
-        for side, held in sorted(snapshot.held.items())
-        if side != aside and held.member != UNCHOSEN
-    }
+    shown = {side: held for side, held in snapshot.held.items() if side != aside and held.member != UNCHOSEN}
+    hands: dict[str, Carried] = {item.object: item for item in replace(snapshot, held=shown).carried()}
     carried: tuple[Carried, ...] = tuple(hands.values())
-    present = {*snapshot.standing, *(name for _, name, _ in carried)}
+    present = {*snapshot.standing, *hands}
     named = tuple(
         sorted({pair for pair in allowed if all(_is_present(context, name, present) for name in pair)})
     )
@@ -72,10 +66,12 @@ def _compose(
         item = context.world.find(name)
         if item is not None and item.geometry:
             scene = scene.with_standing(StaticBody(name, item.geometry, snapshot.T_base_object(name)))
-    for side, name, T_tool_object in carried:
-        item = context.world.find(name)
+    for one in carried:
+        item = context.world.find(one.object)
         if item is not None and item.geometry:
-            scene = scene.with_attached(AttachedBody(name, item.geometry, side, T_tool_object))
+            rides_on = "" if one.object == one.holds else one.holds
+            body = AttachedBody(one.object, item.geometry, one.side, one.T_tool_object, rides_on)
+            scene = scene.with_attached(body)
     return scene.with_allowed(allowed)
 
 
