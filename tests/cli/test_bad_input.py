@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import signal
+import subprocess
 import time
 from pathlib import Path
 
@@ -133,6 +134,48 @@ def test_a_file_in_the_way_of_the_bundle_is_not_replaced(lab: Path) -> None:
     assert ran.code in (1, 2)
     assert (lab / "out").read_text() == "precious"
     assert "[XEI09" in ran.err
+
+
+@pytest.mark.parametrize("place", ["file", "file/bundle", "/", "mine"])
+def test_a_place_without_room_for_a_bundle_is_told_before_anything_is_planned(lab: Path, place: str) -> None:
+    (lab / "file").write_text("precious")
+    (lab / "mine").mkdir()
+    (lab / "mine" / "thesis.tex").write_text("precious")
+    ran = xei("compile", written(lab, protocol("wait 1 s")).name, "-o", place, cwd=lab)
+    assert (ran.code, f"`{place}`" in ran.err, "help: choose" in ran.err) == (1, True, True), ran.err
+    assert "motion" not in ran.err
+
+
+def test_what_is_written_to_a_pipe_or_through_a_link_leaves_both(lab: Path) -> None:
+    name = written(lab, protocol("wait 1 s")).name
+    (lab / "to").write_text("")
+    (lab / "link").symlink_to("to")
+    assert xei("compile", name, "--emit", "plan", "-o", "link", cwd=lab).code == 0
+    assert (lab / "link").is_symlink()
+    plan = (lab / "to").read_text()
+    assert '"skill_calls"' in plan
+    os.mkfifo(lab / "pipe")
+    reader = subprocess.Popen(["cat", "pipe"], cwd=lab, stdout=subprocess.PIPE, text=True)
+    assert xei("compile", name, "--emit", "plan", "-o", "pipe", cwd=lab).code == 0
+    assert reader.communicate(timeout=30)[0] == plan
+    assert (lab / "pipe").is_fifo()
+
+
+FULL = Path("/dev/full")
+
+
+@pytest.mark.skipif(not FULL.is_char_device(), reason="needs /dev/full")
+def test_an_output_that_is_full_is_no_bug_of_ours(lab: Path) -> None:
+    # By way of a link, so that a program that replaces its output breaks the link only.
+    (lab / "full").symlink_to(FULL)
+    name = written(lab, protocol("wait 1 s")).name
+    traced = xei("run", name, "--trace", "full", cwd=lab)
+    assert (traced.code, "error[XEI0101]: `full` cannot be written: no space left" in traced.err) == (2, True)
+    with FULL.open("w") as full:
+        printed = start("check", "--format", "json", name, cwd=lab, stdout=full)
+    _, err = printed.communicate(timeout=60)
+    assert (printed.returncode, err) == (
+        2, "error: standard output cannot be written: no space left on device\n")  # fmt: skip
 
 
 def test_a_foreign_folder_is_not_replaced(lab: Path) -> None:

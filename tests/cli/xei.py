@@ -15,6 +15,7 @@ import tempfile
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from typing import IO
 
 ROOT = Path(__file__).resolve().parents[2]
 PROFILES = ROOT / "profiles"
@@ -39,19 +40,23 @@ def _warm_cache() -> Path:
     return folder / ".cache"
 
 
-def start(*args: str, cwd: Path, env: dict[str, str] | None = None) -> subprocess.Popen[str]:
+def start(
+    *args: str, cwd: Path, env: dict[str, str] | None = None, stdout: IO[str] | int = subprocess.PIPE
+) -> subprocess.Popen[str]:
     if not (cwd / ".cache").exists():
         with suppress(OSError):
             shutil.copytree(_warm_cache(), cwd / ".cache")
-    return _start(args, cwd, env)
+    return _start(args, cwd, env, stdout)
 
 
-def _start(args: tuple[str, ...], cwd: Path, env: dict[str, str] | None) -> subprocess.Popen[str]:
+def _start(
+    args: tuple[str, ...], cwd: Path, env: dict[str, str] | None, stdout: IO[str] | int = subprocess.PIPE
+) -> subprocess.Popen[str]:
     program = [sys.executable, "-c", "from xei_lang.cli.main import run; run()", *args]
     own = {"PYTHONPATH": str(ROOT), "NO_COLOR": "1", "XDG_CACHE_HOME": str(cwd / ".cache")}
     environment = {**os.environ, **own, **(env or {})}
     return subprocess.Popen(
-        program, cwd=cwd, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+        program, cwd=cwd, env=environment, stdin=subprocess.DEVNULL, stdout=stdout,
         stderr=subprocess.PIPE, text=True,
     )  # fmt: skip
 

@@ -56,6 +56,8 @@ def command(
         raise click.BadParameter(f"`--emit {stage}` does not get as far", param_hint="--print-after")
     session = open_session(file, options, allow_unmapped=allow_unmapped, strict=strict)
     session = session.grounded_by(world)
+    if stage is None or stage == "bag":
+        _stop_without_a_place(session, _folder(session, output))
 
     def watch(result: PassResult) -> None:
         if stage is None and not options.quiet and not result.failed and result.pass_name in SHOWN:
@@ -72,10 +74,23 @@ def command(
 def _write(session: Session, made: Handoffs, stage: str | None, output: Path | None) -> int:
     """Write what was asked for, and return the exit code."""
     if stage is None or stage == "bag":
-        target = output or Path("build") / Path(session.source.file).stem
+        target = _folder(session, output)
         return session.show(write_all(stage, target, session.request, made, session.options.quiet))
     text = text_of(stage, session.request, made)
     if output is None:
         click.echo(text, nl=False)
         return 0
     return session.show(write_text(output, text))
+
+
+def _folder(session: Session, output: Path | None) -> Path:
+    return output or Path("build") / Path(session.source.file).stem
+
+
+def _stop_without_a_place(session: Session, folder: Path) -> None:
+    """Planning may take minutes: that its result has no place is said before."""
+    from xei_lang.export.bundle import place_refused
+
+    code = session.show(place_refused(folder))
+    if code:
+        sys.exit(code)

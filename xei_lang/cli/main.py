@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import errno
 import gc
 import importlib
+import os
 import sys
+from typing import NoReturn
 
 import click
 
 from xei_lang import __version__
-from xei_lang.cli.exit_codes import INTERRUPTED, OUR_BUG
+from xei_lang.cli.exit_codes import INTERRUPTED, OUR_BUG, WRONG_USAGE
 
 COMMANDS = {
     "check": "Check protocols without moving anything.",
@@ -25,6 +28,8 @@ COMMANDS = {
     "explain": "Say more about a diagnostic's code.",
     "schema": "Print the JSON Schema of a form.",
 }
+
+_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 
 
 class _Commands(click.Group):
@@ -74,8 +79,17 @@ def run(argv: list[str] | None = None) -> None:
         sys.stderr.close()
         sys.exit(0)
     except Exception as bug:
+        if isinstance(bug, OSError) and bug.filename is None and bug.errno in _FULL:
+            _stop_where_output_is_full(bug)
         _report_bug(bug)
         sys.exit(OUR_BUG)
+
+
+def _stop_where_output_is_full(error: OSError) -> NoReturn:
+    click.echo(f"error: standard output cannot be written: {(error.strerror or '').lower()}", err=True)
+    # What is still kept for it would be refused once more at the end.
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    sys.exit(WRONG_USAGE)
 
 
 def _report_bug(bug: Exception) -> None:

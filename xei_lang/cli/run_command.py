@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Callable, Mapping
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
@@ -21,6 +22,8 @@ from xei_lang.syntax.reading import read_source
 
 if TYPE_CHECKING:
     from xei_lang.runtime.answers import Answers
+
+_ELSEWHERE = ("choose another place with --trace",)
 
 
 @click.command("run")
@@ -84,19 +87,17 @@ def _run(
     from xei_lang.cli.deliver import Compiled
     from xei_lang.runtime.run import run
 
+    inputs = Compiled.of(session.source, made).run_inputs()
     try:
-        trace = trace_path.open("w", encoding="utf-8") if trace_path is not None else None
+        with trace_path.open("w", encoding="utf-8") if trace_path is not None else nullcontext() as trace:
+            result = run(inputs, executor, answers, _recorder(trace), speed)
     except OSError as error:
+        if trace_path is None:
+            raise
+        # A run whose record is lost does not go on: whoever looks for what was done would find too little.
         reason = (error.strerror or str(error)).lower()
-        session.show((Diagnostic("XEI0101", f"`{trace_path}` cannot be written: {reason}"),))
+        session.show((Diagnostic("XEI0101", f"`{trace_path}` cannot be written: {reason}", help=_ELSEWHERE),))
         return WRONG_USAGE
-    try:
-        result = run(
-            Compiled.of(session.source, made).run_inputs(), executor, answers, _recorder(trace), speed
-        )
-    finally:
-        if trace is not None:
-            trace.close()
     session.show(result.diagnostics)
     if not session.options.quiet:
         stage = f" at {result.failed_stage}" if result.failed_stage else ""

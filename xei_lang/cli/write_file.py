@@ -10,7 +10,11 @@ from xei_lang.diagnostics import Diagnostic, Diagnostics
 
 
 def write_text(path: Path, text: str) -> Diagnostics:
-    """Write beside the target, then rename; a refusal of the system comes back as a diagnostic."""
+    """Write beside the target, then rename; a refusal of the system comes back as a diagnostic.
+
+    A symbolic link stays and what it leads to is written. What is no regular file (`/dev/stdout`, a pipe) is
+    written to, and never replaced.
+    """
     return write_bytes(path, text.encode())
 
 
@@ -21,7 +25,10 @@ def write_bytes(path: Path, data: bytes) -> Diagnostics:
         return (Diagnostic("XEI0101", message, help=("name a file with -o",)),)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        _replace(path, data)
+        if path.exists() and not path.is_file():
+            path.write_bytes(data)
+        else:
+            _replace(Path(os.path.realpath(path)), data)
     except OSError as error:
         return (_refused(path, error, ("choose another place with -o",)),)
     return ()

@@ -32,8 +32,9 @@ def write_bundle(directory: Path, contents: Mapping[str, Content], manifest: Man
     """
     try:
         target = Path(os.path.realpath(directory))
-        target.parent.mkdir(parents=True, exist_ok=True)
-        _recover(target)
+        if target.name:
+            target.parent.mkdir(parents=True, exist_ok=True)
+            _recover(target)
         refusal = _refusal(target, directory)
         if refusal:
             return (refusal,)
@@ -49,6 +50,21 @@ def write_bundle(directory: Path, contents: Mapping[str, Content], manifest: Man
     except OSError as error:
         return (_refused_by_system(directory, error),)
     return ()
+
+
+def place_refused(directory: Path) -> Diagnostics:
+    """Why no bundle may stand at a place, as far as that can be told before there is one."""
+    try:
+        target = Path(os.path.realpath(directory))
+        refusal = _refusal(target, directory)
+        above = next(folder for folder in target.parents or (target,) if folder.exists())
+        if not above.is_dir():
+            raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR))
+        if not os.access(above, os.W_OK):
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+    except OSError as error:
+        return (_refused_by_system(directory, error),)
+    return (refusal,) if refusal else ()
 
 
 @dataclass(frozen=True, slots=True)
