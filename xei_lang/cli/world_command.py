@@ -75,28 +75,41 @@ def show_world(
 @click.argument("name")
 @_profile_option
 @grounding
+@click.option("--history", is_flag=True, help="What the transforms on the way were before, too.")
 @_quiet_option
 @_color_option
-def where(*, name: str, profile: str | None, world: WorldOptions, quiet: bool, color: str) -> None:
-    """Print where an object is, who said so field by field, and how well that is known.
+def where(
+    *, name: str, profile: str | None, world: WorldOptions, history: bool, quiet: bool, color: str
+) -> None:
+    """Print where an object or a frame is, who said so field by field, and how well that is known.
 
-    NAME is the name of an object, or one of its aliases.
+    NAME is the name of an object, one of its aliases, or a frame of the calibration profile.
 
     Example: xei world where tube_1
     """
+    from xei_lang.world.view.frame_text import frame_text
     from xei_lang.world.view.where import object_called, to_text
 
     colored = wants_color(color)
     lab = open_lab(profile, colored)
     item = object_called(lab, name)
-    if item is None:
-        known = [item.name for item in lab.objects] + [
-            alias for item in lab.objects for alias in item.aliases
-        ]
-        near = did_you_mean(name, known)
-        hint = f"did you mean `{near[0]}`?" if near else "`xei world show` lists all objects"
-        raise click.BadParameter(f"`{lab.name}` has no object `{name}`; {hint}", param_hint="NAME")
-    click.echo(to_text(_ground(lab, world, quiet=quiet, colored=colored), lab, item), nl=False)
+    frames = [frame.name for frame in lab.calibration.frames]
+    frames += [frame for frame, _ in lab.calibration.robot_frames]
+    if item is None and name not in frames:
+        raise click.BadParameter(_unknown(name, frames, lab), param_hint="NAME")
+    grounded = _ground(lab, world, quiet=quiet, colored=colored)
+    frame = grounded.frame(name)
+    if item is not None:
+        click.echo(to_text(grounded, lab, item, history=history), nl=False)
+    elif frame is not None:
+        click.echo(frame_text(grounded, lab, frame, history=history), nl=False)
+
+
+def _unknown(name: str, frames: list[str], lab: Profile) -> str:
+    known = [item.name for item in lab.objects] + [alias for item in lab.objects for alias in item.aliases]
+    near = did_you_mean(name, known + frames)
+    hint = f"did you mean `{near[0]}`?" if near else "`xei world show` lists all objects"
+    return f"`{lab.name}` has no object `{name}`; {hint}"
 
 
 def _ground(profile: Profile, asked: WorldOptions, *, quiet: bool, colored: bool) -> World:

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import difflib
+from dataclasses import replace
 
 import pytest
 
 from tests.world.perception.views import ROOT
 from xei_lang.diagnostics import Diagnostic, Source
 from xei_lang.ir.geometry import Pose
+from xei_lang.profiles.yaml_edit import flow
 from xei_lang.profiles.yaml_reader import read_yaml
 from xei_lang.world.calibration.measured import Measured, put_in
 
 BENCH = (ROOT / "profiles" / "openarm_bench" / "calibration_profile.yaml").read_text(encoding="utf-8")
 MEASURED = Measured(
     "camera", "slide", Pose.from_rpy((0.06421, -0.0031, 0.7968), (0.004, 0.71, -0.012)), "2026-11-20",
-    'hand-eye "calibration"', 2.3e-4, 1e-4,
+    'hand-eye "calibration"', 2.3e-4, 1e-4, "std", (("pixel", 0.21),),
+    tuple(5.29e-8 if row == column else 0.0 for row in range(6) for column in range(6)),
 )  # fmt: skip
 
 
@@ -41,10 +44,36 @@ def test_only_the_lines_of_the_transform_change():
     assert "measured_on" in added
     before, after = plain(BENCH), plain(text)
     frame = after["frames"].pop("camera")
-    before["frames"].pop("camera")
+    former = before["frames"].pop("camera")
     assert before == after
+    [earlier] = frame.pop("history")
     assert frame == plain(MEASURED.snippet())["frames"]["camera"]
+    assert {**earlier, "parent": "slide"} == former
     assert put(text) == text
+
+
+def test_each_measurement_moves_the_one_before_it_to_the_head_of_the_history():
+    second = replace(MEASURED, measured_on="2026-11-22", position_tolerance_m=1e-4)
+    third = replace(second, measured_on="2026-12-24", covariance=tuple([0.0] * 36))
+    text = BENCH
+    for measured in (MEASURED, second, third):
+        found = put_in(Source("calibration_profile.yaml", text), measured)
+        assert isinstance(found, str)
+        text = found
+    history = plain(text)["frames"]["camera"]["history"]
+    assert [one.get("measured_on") for one in history] == ["2026-11-22", "2026-11-20", None]
+    assert [one["status"] for one in history] == ["measured", "measured", "placeholder"]
+    assert history[1] == {
+        key: value for key, value in plain(MEASURED.snippet())["frames"]["camera"].items() if key != "parent"
+    }
+    assert text.count("\n      - {") == 3, "each entry has a line of its own"
+
+
+def test_a_frame_that_hangs_elsewhere_by_now_is_left():
+    moved = BENCH.replace("    parent: slide\n", "    parent: world\n", 1)
+    found = put_in(Source("calibration_profile.yaml", moved), MEASURED)
+    assert isinstance(found, Diagnostic)
+    assert "hangs on `world` by now" in found.message
 
 
 FORMS = {
@@ -62,6 +91,16 @@ FORMS = {
         "            rotation: 1 deg\n        position:\n        - 1 m\n        - 2 m\n        - 3 m\n"
         "        status: measured\n        method: m\n    table:\n        parent: world\n"
     ),
+    "a history on one line": (
+        "frames:\n  camera:\n    parent: slide # p\n    status: measured\n    history: [] # nothing yet\n    method: m\n"
+    ),
+    "a history of one line with an entry": (
+        "frames: {camera: {parent: slide, status: measured, history: [{status: estimated}], method: m}}\n"
+    ),
+    "a history as a block": (
+        "frames:\n  camera:\n    parent: slide\n    status: measured\n    history:  # newest first\n"
+        "    # the first\n    - status: estimated\n      method: a: b\n    - {status: placeholder}\n    method: m\n"
+    ).replace("a: b", "guess"),
     "last in the file, without a line end": (
         "limits: []\nframes:\n  camera:\n    method: m\n    status: measured\n    parent: slide"
     ),
@@ -71,8 +110,14 @@ FORMS = {
 
 @pytest.mark.parametrize("text", FORMS.values(), ids=FORMS.keys())
 def test_every_way_of_writing_it_is_kept(text):
+    before = plain(text)["frames"]["camera"]
     after = put(text)
-    assert plain(after)["frames"]["camera"] == plain(MEASURED.snippet())["frames"]["camera"]
+    camera = plain(after)["frames"]["camera"]
+    history = camera.pop("history", [])
+    former = before.pop("history", [])
+    assert camera == plain(MEASURED.snippet())["frames"]["camera"]
+    if "status" in before:
+        assert history == [{key: value for key, value in before.items() if key != "parent"}, *former]
     kept = [line.split("#", 1)[1] for line in text.splitlines() if "#" in line]
     assert [line.split("#", 1)[1] for line in after.splitlines() if "#" in line] == kept
     assert ("\r\n" in text) == ("\r\n" in after)
@@ -88,6 +133,17 @@ def test_what_cannot_be_replaced_is_left(text):
     assert found.code == "XEI0687"
 
 
-def test_the_tolerance_is_three_deviations_rounded_up():
+def test_the_tolerance_is_rounded_up_and_says_what_it_is():
     frame = plain(MEASURED.snippet())["frames"]["camera"]
-    assert frame["tolerance"] == {"position": "0.690 mm", "rotation": "0.0172 deg"}
+    assert frame["tolerance"] == {"position": "0.2300 mm", "rotation": "0.00573 deg", "as": "std"}
+    assert frame["residual"] == {"pixel": 0.21}
+    assert frame["covariance"][0] == 5.29e-8
+
+
+@pytest.mark.parametrize(
+    "value",
+    [1e-7, -3.25e-12, 0.1 + 0.2, 1 / 3, "", "yes", "1:30", "2026-11-20", "0x1", "a # b", "\u00b5m \x7f", "- x", "{",
+     "3 mm", [1, [2.5, "x"]], {"a": {"b": []}}, True, None],
+)  # fmt: skip
+def test_values_on_one_line_read_back_as_they_were(value):
+    assert plain(f"key: {flow(value)}\n") == {"key": value}

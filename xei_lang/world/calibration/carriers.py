@@ -42,20 +42,6 @@ def carried(profile: Profile, frame: str) -> Carried | None:
     return Carried(frame, links[name], pose)
 
 
-def standing(profile: Profile, frame: str, station: str) -> Carried | None:
-    """How a frame that hangs on `world` lies to the robot while its base stands at a station; None for one
-    that the robot carries, or where there is no such station.
-    """
-    origin = next((one for one in profile.calibration.stations if one.name == station), None)
-    frames = {one.name: one for one in profile.calibration.frames}
-    pose, name = IDENTITY, frame
-    while name in frames:
-        pose, name = frames[name].T_parent_frame @ pose, frames[name].parent
-    if name != "world" or origin is None:
-        return None
-    return Carried(frame, profile.robot.root, origin.T_world_base.inverse() @ pose)
-
-
 def standing_at(profile: Profile, station: SceneOrigin) -> World:
     """The frames of a deployment with the base at a station, without objects."""
     state = replace(start_state(profile), station=station.name, T_world_base=station.T_world_base)

@@ -23,7 +23,7 @@ from xei_lang.profiles.schema.recording import RecordingModel, SampleModel, Seen
 from xei_lang.profiles.yaml_reader import read_yaml
 from xei_lang.profiles.yaml_tree import Node
 from xei_lang.world.calibration.board import Board, see_board
-from xei_lang.world.calibration.carriers import Carried, carried, joints_between, standing
+from xei_lang.world.calibration.carriers import Carried, before_base, carried, joints_between, standing_at
 from xei_lang.world.calibration.sample import Sample
 from xei_lang.world.perception.optics import T_CAMERA_OPTICAL, Optics, matrix_of
 
@@ -34,8 +34,10 @@ _RANGE_SLACK = 0.02
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Recording:
-    """What is to be solved: `frame` is the camera's frame, as the profile has it now; `station` is where the
-    base stood, for a camera in the room.
+    """What is to be solved: `frame` is the camera's frame, as the profile has it now.
+
+    `standing` are the frames around the base at its station, for a camera that the robot does not carry;
+    else None.
     """
 
     recorded_on: str
@@ -44,7 +46,6 @@ class Recording:
     target: str
     samples: tuple[Sample, ...]
     standing: World | None = None
-    station: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -81,9 +82,8 @@ def read_recording(source: Source, profile: Profile) -> tuple[Recording | None, 
         )
     if found:
         return None, tuple(found)
-    in_room = model.station or "" if carried(profile, setting.frame.parent) is None else ""
-    recording = Recording(model.recorded_on, setting.camera, setting.frame, model.target, usable, in_room)
-    return recording, ()
+    camera, frame = setting.camera, setting.frame
+    return Recording(model.recorded_on, camera, frame, model.target, usable, setting.standing), ()
 
 
 def _recoded(fault: Diagnostic) -> Diagnostic:

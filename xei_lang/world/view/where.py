@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from xei_lang.ir.forms.pose_text import millimetres, pose_text
+from xei_lang.ir.forms.pose_text import pose_text
 from xei_lang.ir.world import World, WorldObject
 from xei_lang.profiles.model import LabObject, Profile
 from xei_lang.world.reach import stations_that_reach
 from xei_lang.world.transforms import lookup
+from xei_lang.world.view.frame_text import history_lines
 from xei_lang.world.view.table import reach_text
+from xei_lang.world.view.way_text import way_lines
 
 BASE = "robot_base"
 
@@ -21,15 +23,18 @@ def object_called(profile: Profile, name: str) -> LabObject | None:
     return profile.object(name) or next(by_alias, None)
 
 
-def to_text(world: World, profile: Profile, item: LabObject) -> str:
-    """Some lines about an object of the profile, which need not be in the world."""
+def to_text(world: World, profile: Profile, item: LabObject, *, history: bool = False) -> str:
+    """Some lines about an object of the profile, which need not be in the world; with `history` also what the
+    transforms on the way to it were before.
+    """
     aliases = ", ".join(f'"{alias}"' for alias in item.aliases)
     head = f"{item.name} ({aliases})" if aliases else item.name
     found = world.find(item.name)
     if found is None:
         asked = ", ".join(world.sources)
         return f"{head}\n  no source says where it is; asked, in this order: {asked}\n"
-    return "\n".join([head, *(f"  {line}" for line in _lines(world, profile, found))]) + "\n"
+    lines = [*_lines(world, profile, found), *(_histories(world, profile, found) if history else ())]
+    return "\n".join([head, *(f"  {line}" for line in lines)]) + "\n"
 
 
 def _lines(world: World, profile: Profile, item: WorldObject) -> Iterator[str]:
@@ -40,12 +45,8 @@ def _lines(world: World, profile: Profile, item: WorldObject) -> Iterator[str]:
         T_table_object = world.T_world_frame(table).inverse() @ world.T_world_object(item.name)
         yield f"in {table}: {pose_text(T_table_object)}"
     way = lookup(world, BASE, item.frame_id, item.T_frame_object.position_m)
-    turn = f"{math.degrees(way.rotation_tolerance_rad):.2g} deg"
     yield f"in {BASE} at {world.robot.station}: {pose_text(way.T_target_source @ item.T_frame_object)}"
-    yield (
-        f"  by {' > '.join(way.path)}, {way.status}, "
-        f"good to {millimetres(way.position_tolerance_m)} mm and {turn}"
-    )
+    yield from (f"  {line}" for line in way_lines(way))
     yield f"confidence {item.confidence:g}"
     yield from (f"{name} is {value}" for name, value in item.states)
     yield f"within reach: {reach_text(stations_that_reach(profile, world, item.name))}"
@@ -54,6 +55,14 @@ def _lines(world: World, profile: Profile, item: WorldObject) -> Iterator[str]:
     yield from (f"  {name.ljust(width)}  {source}" for name, source in item.provenance)
     seen = [(name, value) for name, value in item.metadata if not name.startswith("asset.")]
     yield from (f"{name} = {value}" for name, value in seen)
+
+
+def _histories(world: World, profile: Profile, item: WorldObject) -> Iterator[str]:
+    stated = {frame.name: frame for frame in profile.calibration.frames}
+    for link in lookup(world, BASE, item.frame_id).links:
+        if link.name in stated:
+            yield f"frame {link.name}"
+            yield from (f"  {line}" for line in history_lines(stated[link.name]))
 
 
 def _nearest_table(world: World, profile: Profile, item: WorldObject) -> str:
