@@ -14,8 +14,9 @@ from xei_lang.motion.verify.timeline import Held, Moment
 
 
 def check_hands(context: Context) -> None:
-    """Each goal lists every held object that its joints carry and nothing that is not held, at the pose in
-    the hand that attaching made; a detach lets go of what was held, at the place that was asked for."""
+    """Each goal lists every held object that its joints carry, what rides on those, and nothing that is not
+    held, at the pose in the hand that attaching made; a detach lets go of what was held, at the place that
+    was asked for, and says where that and its riders are left."""
     for goal in context.plan.goals:
         planned = context.planned(goal)
         if planned is None:
@@ -72,7 +73,8 @@ def _check_carried(context: Context, goal: TimedGoal) -> None:
     for held in context.timeline.starts[goal.id].scene.held:
         carried = moved.intersection(context.robot.columns(held.link))
         if carried and held.object not in listed:
-            text = f"`{held.object}` is in the hand that moves, but the plan does not say so"
+            where = f"on `{held.rides_on}` in" if held.rides_on else "in"
+            text = f"`{held.object}` is {where} the hand that moves, but the plan does not say so"
             context.found("attachment", goal, goal.start_s, held.object, text)
 
 
@@ -80,7 +82,7 @@ def _check_shared(context: Context, goal: TimedGoal) -> None:
     """While two hands hold an object, no joint moves the one against the other."""
     moved = {context.robot.column[joint] for joint in goal.joints if joint in context.robot.column}
     held = context.timeline.starts[goal.id].scene.held
-    for first, second in combinations(held, 2):
+    for first, second in combinations((item for item in held if not item.rides_on), 2):
         between = set(context.robot.columns(first.link)) ^ set(context.robot.columns(second.link))
         if first.object == second.object and moved & between:
             text = f"`{first.object}` is in both hands while one moves against the other"
@@ -88,7 +90,8 @@ def _check_shared(context: Context, goal: TimedGoal) -> None:
 
 
 def _check_attach(context: Context, goal: TimedGoal, action: Attach) -> None:
-    before = [item for item in context.timeline.starts[goal.id].scene.held if item.object == action.object]
+    held = context.timeline.starts[goal.id].scene.held
+    before = [item for item in held if item.object == action.object and not item.rides_on]
     if before and not _is_left_to(context, goal, action):
         context.found("attachment", goal, goal.start_s, action.object, f"`{action.object}` is already held")
     if not any(item.object == action.object for item in context.timeline.ends[goal.id].scene.held):
@@ -107,7 +110,8 @@ def _is_left_to(context: Context, goal: TimedGoal, action: Attach) -> bool:
 
 def _check_detach(context: Context, goal: TimedGoal, planned: MotionGoal, action: Detach) -> None:
     start, end = context.timeline.starts[goal.id], context.timeline.ends[goal.id]
-    holders: dict[Side, Held] = {item.side: item for item in start.scene.held if item.object == action.object}
+    taken = (item for item in start.scene.held if not item.rides_on)
+    holders: dict[Side, Held] = {item.side: item for item in taken if item.object == action.object}
     held = holders.get(action.arm)
     if held is None:
         text = f"the {action.arm} hand lets go of `{action.object}`, which it does not hold"
@@ -118,29 +122,35 @@ def _check_detach(context: Context, goal: TimedGoal, planned: MotionGoal, action
         text = f"`{action.object}` is not left to a hand that holds it"
         context.found("attachment", goal, goal.start_s, action.object, text)
     symmetric = any(family.id == held.family and family.symmetric for family in context.graph.families)
-    _check_left(
-        context,
-        goal,
-        action.object,
-        action.T_base_object,
-        end,
-        symmetric=symmetric,
-        where="where it was asked for",
-    )
-    stated = [item for item in goal.placed if item.object == action.object]
+    where = "where it was asked for"
+    _check_left(context, goal, action.object, action.T_base_object, end, symmetric=symmetric, where=where)
+    _check_fastened(context, goal, action, end)
+    for name in (action.object, *_on_it(end, action.object)):
+        _check_stated(context, goal, name, end)
+
+
+def _check_fastened(context: Context, goal: TimedGoal, action: Detach, end: Moment) -> None:
+    """What is to ride on something from here on does, and nothing else."""
+    if end.scene.riders.get(action.object, "") != action.fastened_to:
+        text = f"`{action.object}` cannot ride on `{action.fastened_to}`"
+        context.found("attachment", goal, goal.start_s, action.object, text)
+
+
+def _on_it(moment: Moment, name: str) -> tuple[str, ...]:
+    """What is fastened on an object, and on that."""
+    own = [rider for rider, on in moment.scene.riders.items() if on == name]
+    return tuple(found for rider in own for found in (rider, *_on_it(moment, rider)))
+
+
+def _check_stated(context: Context, goal: TimedGoal, name: str, end: Moment) -> None:
+    """The plan says where an object is left, and it is there."""
+    stated = [item for item in goal.placed if item.object == name]
     if not stated:
-        text = f"the plan does not say where `{action.object}` is left"
-        context.found("placement", goal, goal.end_s, action.object, text)
+        text = f"the plan does not say where `{name}` is left"
+        context.found("placement", goal, goal.end_s, name, text)
     for item in stated:
-        _check_left(
-            context,
-            goal,
-            action.object,
-            item.T_base_object,
-            end,
-            symmetric=False,
-            where="where the plan says",
-        )
+        where = "where the plan says"
+        _check_left(context, goal, name, item.T_base_object, end, symmetric=False, where=where)
 
 
 def _check_left(

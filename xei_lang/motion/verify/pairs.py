@@ -90,14 +90,20 @@ class Pairs:
         return np.flatnonzero(wanted)
 
     def _allowed(self, phase: Phase) -> frozenset[Pair]:
-        """Contacts that both the plan and the graph allow to a goal that runs, and a held object with its
-        own fingers."""
+        """Contacts that both the plan and the graph allow to a goal that runs, a held object with its own
+        fingers, and with what rides on it."""
         pairs: list[Pair] = []
         for goal in phase.running:
             granted = self._granted.get(goal.id, frozenset[Pair]())
             pairs += [pair for pair in self._spread(goal.allowed_contacts) if pair in granted]
         for held in phase.scene.held:
-            pairs += [(finger, held.object) for finger in self.robot.fingers(held.link)]
+            if held.rides_on:
+                together = (
+                    other for other in phase.scene.held if held.rides_on in (other.object, other.rides_on)
+                )
+                pairs += [(held.object, other.object) for other in together]
+            else:
+                pairs += [(finger, held.object) for finger in self.robot.fingers(held.link)]
         return frozenset([*pairs, *((b, a) for a, b in pairs)])
 
     def _spread(self, contacts: tuple[Pair, ...]) -> frozenset[Pair]:

@@ -207,7 +207,7 @@ def _check_line(context: Context, goal: TimedGoal, arm: str) -> None:
 def _check_tilt(context: Context, goal: TimedGoal, bound_rad: float) -> None:
     times, q = _rows(context, goal)
     for held in context.timeline.starts[goal.id].scene.held:
-        if held.side != goal.arm:
+        if held.side != goal.arm or held.rides_on:
             continue
         rotation, _ = context.robot.frames(q, (held.link,))[held.link]
         upright = np.array(held.T_link_object.axes()[2])

@@ -2,13 +2,14 @@
 scene.
 
 Joints that no running goal moves hold their last position; mimic joints follow. Objects stand where the
-world has them, move with the hand between attach and detach, and stay where the hand was when it let go.
+world has them, move with the hand between attach and detach, and stay where the hand was when it let go; what
+is fastened on one of them goes with it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,7 +20,9 @@ from xei_lang.ir.timed import TimedGoal, TimedPlan
 from xei_lang.ir.world import World
 from xei_lang.motion.verify.evaluate import Array, Motion, grid
 from xei_lang.motion.verify.options import RobotDescription
+from xei_lang.motion.verify.riders import Riders
 from xei_lang.motion.verify.robot import Robot
+from xei_lang.motion.verify.stated_links import stated_links
 
 _MERGE_S = 1e-6
 
@@ -27,23 +30,25 @@ _MERGE_S = 1e-6
 @dataclass(frozen=True, slots=True)
 class Held:
     """An object in a hand: the link that carries it, where it sits there, and the grasp family that it was
-    taken by."""
+    taken by. Where it `rides_on` another one, the jaws hold that one, and this comes along."""
 
     object: str
     link: str
     T_link_object: Pose
     side: Side
     family: str
+    rides_on: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """How things stand at one time: the base's epoch, what is held, and where all objects stand in the base
-    frame."""
+    """How things stand at one time: the base's epoch, what is held, where all objects stand in the base
+    frame, and what of them is fastened on which other."""
 
     epoch: int
     held: tuple[Held, ...]
     objects: Mapping[str, Pose]
+    riders: Mapping[str, str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,8 +128,9 @@ class _Walk:
         bases = {epoch.index: epoch.T_world_base for epoch in graph.epochs}
         self.T_world_base = bases.get(self.epoch, world.robot.T_world_base)
         self.T_world = {item.name: world.T_world_object(item.name) for item in world.objects}
+        self.riders = Riders(world, self.T_world)
         self.held: dict[tuple[str, Side], Held] = {}
-        self.links = _stated_links(plan, robot, self.tools)
+        self.links = stated_links(plan, robot, self.tools)
         self.motions = {goal.id: Motion.of(goal.knots) for goal in plan.goals if goal.knots is not None}
         self.starts: dict[str, Moment] = {}
         self.ends: dict[str, Moment] = {}
@@ -174,11 +180,14 @@ class _Walk:
             link = self.links.get((goal.id, action.object, action.arm), self.tools[action.arm])
             T_base_object = self.T_world_base.inverse() @ self.T_world[action.object]
             pose = self.robot.pose(self.q, link).inverse() @ T_base_object
+            self.riders.loosen(action.object)
             held = Held(action.object, link, pose, action.arm, action.family)
             self.held[action.object, action.arm] = held
         elif isinstance(action, Detach) and (action.object, action.arm) in self.held:
             self._let_follow()
             del self.held[action.object, action.arm]
+            if action.fastened_to:
+                self.riders.fasten(action.object, action.fastened_to, self.T_world)
         else:
             return
         self.scene, self.new_scene = self._scene(), True
@@ -187,11 +196,23 @@ class _Walk:
         for held in self.held.values():
             T_base_object = self.robot.pose(self.q, held.link) @ held.T_link_object
             self.T_world[held.object] = self.T_world_base @ T_base_object
+            self.riders.follow(held.object, self.T_world)
 
     def _scene(self) -> Scene:
         T_base_world = self.T_world_base.inverse()
         objects = {name: T_base_world @ pose for name, pose in self.T_world.items()}
-        return Scene(self.epoch, tuple(self.held.values()), objects)
+        carried = tuple(item for held in self.held.values() for item in (held, *self._on(held)))
+        riders = {name: ride.on for name, ride in self.riders.rides.items()}
+        return Scene(self.epoch, carried, objects, riders)
+
+    def _on(self, held: Held) -> tuple[Held, ...]:
+        """What comes along on an object in a hand."""
+        names = self.riders.above(held.object)
+        poses = (held.T_link_object @ self.riders.pose_on(name, held.object) for name in names)
+        return tuple(
+            replace(held, object=name, T_link_object=pose, rides_on=held.object)
+            for name, pose in zip(names, poses, strict=True)
+        )
 
     def _phase(self, time: float, after: float | None, running: tuple[TimedGoal, ...]) -> None:
         moving = tuple(goal for goal in running if goal.id in self.motions)
@@ -221,21 +242,3 @@ def _merged(times: list[float]) -> list[float]:
         if not merged or time - merged[-1] > _MERGE_S:
             merged.append(time)
     return merged
-
-
-def _stated_links(
-    plan: TimedPlan, robot: Robot, tools: Mapping[Side, str]
-) -> dict[tuple[str, str, Side], str]:
-    """For every goal, object and arm, the link of that arm that the plan next says carries the object."""
-    links: dict[tuple[str, str, Side], str] = {}
-    following: dict[tuple[str, Side], str] = {}
-    for goal in reversed(plan.goals):
-        following.update(((item.object, _side(robot, tools, item.link)), item.link) for item in goal.attached)
-        links.update(((goal.id, *key), link) for key, link in following.items())
-    return links
-
-
-def _side(robot: Robot, tools: Mapping[Side, str], link: str) -> Side:
-    """The arm that a link belongs to: the one whose tool shares most joints with it."""
-    columns = set(robot.columns(link)) if link in robot.links else set[int]()
-    return max(sorted(tools), key=lambda side: len(columns.intersection(robot.columns(tools[side]))))
