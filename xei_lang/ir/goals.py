@@ -15,6 +15,7 @@ from xei_lang.diagnostics import Span
 from xei_lang.ir.geometry import Pose, Vec3
 from xei_lang.ir.skill_plan import Side
 from xei_lang.ir.tool_paths import ToolPath
+from xei_lang.record import Record, record
 
 if TYPE_CHECKING:
     import networkx
@@ -27,8 +28,8 @@ RunEvent = Literal["start", "pause", "resume", "await", "stop"]
 PathKind = Literal["free", "linear", "arc", "screw", "raster"]
 
 
-@dataclass(frozen=True, slots=True)
-class ToolPose:
+@record
+class ToolPose(Record):
     """One member of a family: the grasp frame of the gripper in the reference frame (z approaches, y opens).
 
     `name` tells people what it is: `from the side, 45 deg down, azimuth 30 deg, 35 mm under the top`.
@@ -40,8 +41,8 @@ class ToolPose:
     cost: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class Family:
+@record
+class Family(Record):
     """Alternative tool poses about one reference, usually the grasps of one object.
 
     `symmetric` says that the reference may be turned about its z axis without any difference (a round tube
@@ -54,8 +55,8 @@ class Family:
     symmetric: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class ToolTarget:
+@record
+class ToolTarget(Record):
     """A pose of the tool, up to the choice of a member of the family:
 
     `translate(offset_base_m) @ T_base_reference @ T_reference_tool @ translate(offset_tool_m)`.

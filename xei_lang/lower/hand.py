@@ -10,11 +10,11 @@ decided by motion planning on the real geometry.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from xei_lang.ir.geometry import Vec3
 from xei_lang.ir.skill_plan import Side
 from xei_lang.profiles.model import Profile
+from xei_lang.record import Record, record
 
 _TRAVEL_M = 0.044
 _FINGERTIP_M = 0.0155
@@ -23,8 +23,8 @@ _PALM_M = 0.0689
 SIDES: tuple[Side, ...] = ("left", "right")
 
 
-@dataclass(frozen=True, slots=True)
-class Extent:
+@record
+class Extent(Record):
     """An axis-aligned box in the grasp frame, metres; the opening direction is left out (the jaws may stand
     anywhere).
     """
@@ -45,8 +45,8 @@ _EXTENTS = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Hand:
+@record
+class Hand(Record):
     """What a gripper can take: the widest gap between its jaws, the reach of its fingertips past the grasp
     point, and the room between grasp point and palm. Metres.
     """

@@ -7,7 +7,6 @@ behind it, so that a trace can say for each number where it came from.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
 
@@ -16,8 +15,9 @@ from xei_lang.ir.goals import Parameter
 from xei_lang.ir.skill_plan import Step, Value
 from xei_lang.lower.refusal import refuse
 from xei_lang.profiles.model import LabObject, OperationDefault, SkillSpec
-from xei_lang.quantity import TYPE_DIMENSIONS, Dimension, Quantity, quantity
-from xei_lang.quantity.dimension import NUMBER
+from xei_lang.quantity import TYPE_DIMENSIONS, Dimension, Quantity
+from xei_lang.quantity.dimension import LENGTH, NUMBER
+from xei_lang.record import Record, record
 
 Source = Literal["skill", "computed", "usage_profile", "call"]
 
@@ -28,8 +28,8 @@ ROUNDING_M = 1e-6
 _USAGE_NAMES = {"width": "grasp_width"}
 
 
-@dataclass(frozen=True, slots=True)
-class Setting:
+@record
+class Setting(Record):
     """A value of a parameter, the source that gave it, the rule behind it, and where it is written (None if
     computed).
     """
@@ -64,8 +64,8 @@ class Setting:
         )
 
 
-@dataclass(frozen=True, slots=True)
-class Layers:
+@record
+class Layers(Record):
     """What the written sources say: skill defaults below, then the usage profile, then the call."""
 
     skill: Mapping[str, Setting]
@@ -114,4 +114,5 @@ def _of_call(step: Step) -> dict[str, Setting]:
 
 def computed_length(name: str, value_m: float, rule: str) -> Setting:
     """A computed length, rounded to a micrometre so that the text says exactly what is used."""
-    return Setting(name, quantity(Fraction(round(value_m * 1_000_000), 1000), "mm"), "computed", rule, None)
+    value = Quantity(Fraction(round(value_m * 1_000_000), 1_000_000), LENGTH, "mm")
+    return Setting(name, value, "computed", rule, None)

@@ -16,12 +16,12 @@ def shoulder_xy(profile: Profile, side: Side) -> tuple[float, float]:
     It lies on the second joint's axis, where the first three axes meet; that joint's own origin is near
     enough here.
     """
-    pose, joint = Pose(), profile.robot.joint(f"openarm_{side}_joint2")
+    point, joint = (0.0, 0.0, 0.0), profile.robot.joint(f"openarm_{side}_joint2")
     while joint is not None:
-        pose = joint.T_parent_joint @ pose
+        point = joint.T_parent_joint.apply(point)
         parent = joint.parent
         joint = next((item for item in profile.robot.joints if item.child == parent), None)
-    return (pose.position_m[0], pose.position_m[1])
+    return (point[0], point[1])
 
 
 def reach_direction(profile: Profile, side: Side, T_base_object: Pose) -> tuple[float, float]:

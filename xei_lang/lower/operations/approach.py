@@ -4,8 +4,6 @@ is.
 
 from __future__ import annotations
 
-import math
-
 from xei_lang.ir.geometry import Pose
 from xei_lang.ir.goals import ToolTarget
 from xei_lang.lower.hand import Hand
@@ -13,13 +11,14 @@ from xei_lang.lower.hand import Hand
 _FREE_M = 0.010
 
 
-def standoff_needed_m(depth_m: float, half_depth_m: float, elevation_rad: float, hand: Hand) -> float:
-    """The way back, along the approach, that takes the fingertips 10 mm clear of the object.
+def standoff_needed_m(depth_m: float, half_depth_m: float, down: float, level: float, hand: Hand) -> float:
+    """The way back, along the approach, that takes the fingertips 10 mm clear of the object; `down` and
+    `level` are sine and cosine of the approach's elevation.
 
     The object's extent against the approach from the grasp point (`depth_m` under its top, on its axis) is
     that of its upright outline; the fingertips reach further than the grasp point.
     """
-    extent = depth_m * math.sin(elevation_rad) + half_depth_m * math.cos(elevation_rad)
+    extent = depth_m * down + half_depth_m * level
     return extent + hand.fingertip_m + _FREE_M
 
 

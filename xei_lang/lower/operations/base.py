@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from xei_lang.diagnostics import Span
 from xei_lang.ir.geometry import Pose, Vec3
@@ -12,10 +12,11 @@ from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, Side, Step
 from xei_lang.lower.parameters import Layers, Setting
 from xei_lang.lower.walk import Scene
 from xei_lang.profiles.model import Profile
+from xei_lang.record import Record, record
 
 
-@dataclass(frozen=True, slots=True)
-class Work:
+@record
+class Work(Record):
     """What an operation plans for: its subject (the argument before the point), the arm, and the scene at
     that moment.
 
@@ -35,8 +36,8 @@ class Work:
     family_id: str
 
 
-@dataclass(frozen=True, slots=True)
-class Aim:
+@record
+class Aim(Record):
     """A point of an operation: where the tool goes, and which parameters made it so.
 
     `support` is what the held object may touch once it is there; `around` is the object that the open jaws
@@ -54,16 +55,16 @@ class Aim:
     slide_stays: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Axis:
+@record
+class Axis(Record):
     """A line in the base frame that an `arc` or `screw` turns about; `direction` is a unit vector."""
 
     point_m: Vec3
     direction: Vec3
 
 
-@dataclass(frozen=True, slots=True)
-class Area:
+@record
+class Area(Record):
     """A rectangle in the base frame that a template's `raster` covers with the family's reference, from
     `corner_m` on.
     """
@@ -73,8 +74,8 @@ class Area:
     across_m: Vec3
 
 
-@dataclass(frozen=True, slots=True)
-class Planned:
+@record
+class Planned(Record):
     """The outcome: resolved settings and aims by name; the family of a grasp; for a place, where the object
     ends; axes and areas by name.
 
@@ -90,8 +91,8 @@ class Planned:
     areas: Mapping[str, Area] = field(default_factory=dict[str, Area])
 
 
-@dataclass(frozen=True, slots=True)
-class Operation:
+@record
+class Operation(Record):
     """A deterministic planner with the points and parameters that templates may name of it, and the axes and
     areas of its stated paths.
     """

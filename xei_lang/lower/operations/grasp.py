@@ -5,38 +5,40 @@ off before.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import NoReturn
 
 from xei_lang.diagnostics import Label
-from xei_lang.ir.goals import Family, ToolPose, ToolTarget
+from xei_lang.ir.geometry import Pose
+from xei_lang.ir.goals import Family, ToolTarget
 from xei_lang.ir.skill_plan import ObjectRef
 from xei_lang.lower.hand import Hand, hand_of
-from xei_lang.lower.operations.approach import back_off, standoff_needed_m
+from xei_lang.lower.operations.approach import back_off
 from xei_lang.lower.operations.base import Aim, Operation, Planned, Work
 from xei_lang.lower.operations.grasp_family import (
-    ELEVATIONS_DEG,
     MIN_CLEARANCE_M,
     Closing,
     Request,
     closings,
+    grasps,
     height_of,
     is_round,
-    members,
 )
+from xei_lang.lower.operations.grasp_ways import ELEVATIONS_DEG
 from xei_lang.lower.parameters import ROUNDING_M, Setting, computed_length
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.robot import reach_direction
 from xei_lang.lower.seats import place_text, seat_of
 from xei_lang.lower.walk import Standing
 from xei_lang.profiles.model import LabObject
+from xei_lang.record import Record, record
 from xei_lang.world.places import accepts
 
 _APPROACHES = {"top": (60.0, 90.0), "oblique": (30.0, 45.0, 60.0), "side": (0.0, 30.0)}
 _SKILL_CLEARANCE_M = 0.004
 
 
-@dataclass(frozen=True, slots=True)
-class _Widths:
+@record
+class _Widths(Record):
     """The resolved jaw settings."""
 
     clearance: Setting
@@ -44,23 +46,34 @@ class _Widths:
     closed: Setting
 
 
+@record
+class _Seen(Record):
+    """The gripper, the object before the arm, and the level unit vector (x, y) from shoulder to object."""
+
+    hand: Hand
+    T_base_object: Pose
+    reach: tuple[float, float]
+
+
 def plan(work: Work) -> Planned:
     """The family of the object that stands there, and the aims `pregrasp` and `grasp`."""
     assert isinstance(work.subject, ObjectRef)
     standing, known = _graspable(work, work.subject.name)
     hand = hand_of(work.profile)
-    closing = _closing(work, known, hand)
+    T_base_object = work.scene.T_base_object(known.name)
+    seen = _Seen(hand, T_base_object, reach_direction(work.profile, work.arm, T_base_object))
+    closing = _closing(work, known, seen)
     widths = _widths(work, closing, hand)
-    floor_m, host = _floor(work, known, standing)
-    request = _request(work, known, closing, hand, floor_m)
-    found = members(request)
-    if not found:
+    sunk_m = _sunk(work, standing)
+    floor_m, host = _floor(work, known, standing, sunk_m)
+    request = _request(work, known, closing, floor_m, seen)
+    found = grasps(request)
+    if found is None:
         _refuse_family(work, known, host, request)
-    family = Family(work.family_id, known.name, found, is_round(known.shape))
-    standoff = _standoff(work, found, request)
+    family = Family(work.family_id, known.name, found.members, is_round(known.shape))
+    standoff = _standoff(work, found.standoff_m)
     settings = [standoff, widths.clearance, widths.opening, widths.closed]
     depth = work.layers.written("grasp_depth")
-    T_base_object = work.scene.T_base_object(known.name)
     back = back_off(family.id, T_base_object, standoff.si("Length"))
     return Planned(
         {item.name: item for item in (*settings, *((depth,) if depth else ()))},
@@ -69,7 +82,7 @@ def plan(work: Work) -> Planned:
             "grasp": Aim(ToolTarget(family.id, T_base_object), ("grasp_depth",), around=known.name),
         },
         family,
-        floor_m=_sunk(work, standing),
+        floor_m=sunk_m,
     )
 
 
@@ -113,11 +126,11 @@ def _refuse_carrier(work: Work, name: str) -> None:
         )
 
 
-def _closing(work: Work, known: LabObject, hand: Hand) -> Closing:
+def _closing(work: Work, known: LabObject, seen: _Seen) -> Closing:
     """The way to close that fits the jaws; of two, the one whose jaws open across the way from shoulder to
     object.
     """
-    ways = closings(known.shape)
+    ways, hand = closings(known.shape), seen.hand
     fitting = [way for way in ways if way.width_m + 2 * MIN_CLEARANCE_M <= hand.max_gap_m + 1e-9]
     if not fitting:
         least = min(way.width_m for way in ways)
@@ -129,15 +142,14 @@ def _closing(work: Work, known: LabObject, hand: Hand) -> Closing:
             (Label(known.span, "its shape is stated here"),),
             notes=(f"the jaws must pass an object with {_mm(MIN_CLEARANCE_M)} to spare on each side",),
         )
-    pose = work.scene.T_base_object(known.name)
-    reach = reach_direction(work.profile, work.arm, pose)
+    (reach_x, reach_y), rotate = seen.reach, seen.T_base_object.rotate
 
     def across(way: Closing) -> tuple[float, float]:
         heading = way.headings_rad[0]
-        x, y, _ = pose.rotate((math.cos(heading), math.sin(heading), 0.0))
-        return (-round(abs(x * reach[0] + y * reach[1]), 3), way.width_m)
+        x, y, _ = rotate((math.cos(heading), math.sin(heading), 0.0))
+        return (-round(abs(x * reach_x + y * reach_y), 3), way.width_m)
 
-    return min(fitting, key=across)
+    return min(fitting, key=across) if len(fitting) > 1 else fitting[0]
 
 
 def _widths(work: Work, closing: Closing, hand: Hand) -> _Widths:
@@ -182,11 +194,11 @@ def _sunk(work: Work, standing: Standing) -> float:
     return max(0.0, below) if standing.place else 0.0
 
 
-def _floor(work: Work, known: LabObject, standing: Standing) -> tuple[float, str]:
+def _floor(work: Work, known: LabObject, standing: Standing, sunk_m: float) -> tuple[float, str]:
     """How far up the object hand and fingers must stay, here and where it is set down next, and which place
     says so.
     """
-    deepest, where = _sunk(work, standing), standing.place or standing.support
+    deepest, where = sunk_m, standing.place or standing.support
     for ref in work.destinations:
         host = work.profile.object(ref.object)
         seat = seat_of(ref, host) if host and accepts(host, ref, known.roles) else None
@@ -195,16 +207,15 @@ def _floor(work: Work, known: LabObject, standing: Standing) -> tuple[float, str
     return deepest, where
 
 
-def _request(work: Work, known: LabObject, closing: Closing, hand: Hand, floor_m: float) -> Request:
-    pose = work.scene.T_base_object(known.name)
+def _request(work: Work, known: LabObject, closing: Closing, floor_m: float, seen: _Seen) -> Request:
     depth, standoff = work.layers.written("grasp_depth"), work.layers.written("standoff")
     return Request(
         height_of(known.shape),
         closing,
         floor_m,
-        hand,
-        pose,
-        reach_direction(work.profile, work.arm, pose),
+        seen.hand,
+        seen.T_base_object,
+        seen.reach,
         work.profile.calibration.clearance_m + MIN_CLEARANCE_M,
         _elevations(work),
         depth.si("Length") if depth else None,
@@ -226,9 +237,8 @@ def _elevations(work: Work) -> tuple[float, ...]:
     return _APPROACHES[approach.text]
 
 
-def _standoff(work: Work, found: tuple[ToolPose, ...], request: Request) -> Setting:
+def _standoff(work: Work, needed: float) -> Setting:
     """The written standoff, or the greater of the skill's default and what the family needs."""
-    needed = max(_needed(member, request) for member in found)
     default = work.layers.skill.get("standoff")
     if default is not None and default.si("Length") >= needed:
         computed = None
@@ -240,14 +250,7 @@ def _standoff(work: Work, found: tuple[ToolPose, ...], request: Request) -> Sett
     return merged
 
 
-def _needed(member: ToolPose, request: Request) -> float:
-    approach = member.T_reference_tool.rotate((0.0, 0.0, 1.0))
-    depth = request.height_m - member.T_reference_tool.position_m[2]
-    elevation = math.asin(max(-1.0, min(1.0, -approach[2])))
-    return standoff_needed_m(depth, request.closing.half_depth_m, elevation, request.hand)
-
-
-def _refuse_family(work: Work, known: LabObject, host: str, request: Request) -> None:
+def _refuse_family(work: Work, known: LabObject, host: str, request: Request) -> NoReturn:
     free = request.height_m - request.floor_m
     refuse(
         "XEI0704",

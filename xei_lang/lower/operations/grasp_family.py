@@ -10,25 +10,35 @@ the object in the palm, an approach that comes from behind the object towards th
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable
+from operator import attrgetter
+from typing import Any
 
-from xei_lang.ir.geometry import Box, Capsule, Cylinder, Pose, Shape, Sphere
+from xei_lang.ir.geometry import Box, Capsule, Cylinder, Pose, Shape, Sphere, Vec3
 from xei_lang.ir.goals import ToolPose
-from xei_lang.lower.hand import Hand, drop_m, tool_axes
+from xei_lang.lower.hand import Hand
 from xei_lang.lower.operations.approach import standoff_needed_m
+from xei_lang.lower.operations.grasp_ways import (
+    ELEVATIONS_DEG,
+    FACES_X_RAD,
+    FACES_Y_RAD,
+    ROUND_RAD,
+    WAYS,
+    Roll,
+    Tilt,
+    Way,
+)
+from xei_lang.record import Record, record
 
-ELEVATIONS_DEG = (0.0, 30.0, 45.0, 60.0, 90.0)
 MIN_CLEARANCE_M = 0.001
-_HEADINGS = 12
 _TOP_MARGIN_M = 0.013
 _BEHIND = -0.5
 _STEEP_DEG = 60.0
 _UPWARD = 0.05
 
 
-@dataclass(frozen=True, slots=True)
-class Closing:
+@record
+class Closing(Record):
     """One way to close: the width between the jaws, half the depth across them, and the headings (rad) it
     allows.
     """
@@ -38,8 +48,8 @@ class Closing:
     headings_rad: tuple[float, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Request:
+@record
+class Request(Record):
     """What a family is made for.
 
     `floor_m` is the plane, in the object's frame, below which neither hand nor fingers may reach; `reach`
@@ -60,18 +70,37 @@ class Request:
     standoff_m: float = math.inf
 
 
+@record
+class Grasps(Record):
+    """The members of a family, and the way back along the approach (m) that takes the fingertips of each of
+    them clear of the object.
+    """
+
+    members: tuple[ToolPose, ...]
+    standoff_m: float
+
+
+_Height = tuple[str, Vec3, float, float]
+"""A grasp point on the object's axis: its words, where it is in the object's frame, what it costs, and the
+way back that it needs (m).
+"""
+
+_Heading = tuple[float, float]
+"""Of a heading its cosine to the way from shoulder to object, and how far it points up: the z of its unit
+vector in the base frame.
+"""
+
+_COST = attrgetter("cost")
+
+
 def closings(shape: Shape) -> tuple[Closing, ...]:
     """The ways to close on a shape whose axis is z: any heading on a round one, two pairs of faces on a
     box.
     """
     if isinstance(shape, Box):
         x, y, _ = shape.size_m
-        return (
-            Closing(y, x / 2, (0.0, math.pi)),
-            Closing(x, y / 2, (math.pi / 2, -math.pi / 2)),
-        )
-    headings = tuple(2 * math.pi * k / _HEADINGS for k in range(_HEADINGS))
-    return (Closing(2 * shape.radius_m, shape.radius_m, headings),)
+        return (Closing(y, x / 2, FACES_X_RAD), Closing(x, y / 2, FACES_Y_RAD))
+    return (Closing(2 * shape.radius_m, shape.radius_m, ROUND_RAD),)
 
 
 def height_of(shape: Shape) -> float:
@@ -88,90 +117,104 @@ def is_round(shape: Shape) -> bool:
     return isinstance(shape, (Cylinder, Sphere, Capsule))
 
 
-def members(request: Request) -> tuple[ToolPose, ...]:
-    """All members, cheapest first; empty where nothing is left."""
+def grasps(request: Request) -> Grasps | None:
+    """All members, cheapest first; None where nothing is left."""
+    ways = WAYS[request.closing.headings_rad]
+    headings = _in_base(request, ways.headings)
+    axis_z = request.T_base_object.rotate((0.0, 0.0, 1.0))[2]
     found: list[ToolPose] = []
-    for elevation in request.elevations_deg:
-        rolls = (False,) if elevation == 90.0 else (False, True)
-        heights = [(turned, _heights(request, math.radians(elevation), turned)) for turned in rolls]
-        if not any(possible for _, possible in heights):
+    standoff_m = 0.0
+    for tilt in ways.tilts:
+        hopeful = _hopeful(tilt, headings, axis_z) if tilt.elevation_deg in request.elevations_deg else []
+        if not hopeful:
             continue
-        for heading in request.closing.headings_rad:
-            if not _hopeless(request, elevation, heading):
-                for turned, possible in heights:
-                    found.extend(_at_heights(request, elevation, heading, turned, possible))
-    return tuple(sorted(found, key=lambda member: (member.cost, member.name)))
+        rolls = [(roll.ways, _heights(request, tilt, roll)) for roll in tilt.rolls]
+        found += _members(hopeful, rolls)
+        standoff_m = max([standoff_m, *(height[3] for _, heights in rolls for height in heights)])
+    # They were made in the order of their names, in which those of one cost stay.
+    found.sort(key=_COST)
+    return Grasps(tuple(found), standoff_m) if found else None
 
 
-def _hopeless(request: Request, elevation: float, heading: float) -> bool:
-    """Whether the approach points up, or comes back towards the robot from behind the object without being
-    steep.
+def _in_base(request: Request, headings: tuple[Vec3, ...]) -> list[_Heading]:
+    rotate, (reach_x, reach_y) = request.T_base_object.rotate, request.reach
+    turned = [rotate(heading) for heading in headings]
+    return [(x * reach_x + y * reach_y, z) for x, y, z in turned]
+
+
+def _hopeful(tilt: Tilt, headings: list[_Heading], axis_z: float) -> list[tuple[int, float]]:
+    """The headings left at a tilt, by their numbers, with what the way costs without its height; left out are
+    approaches that point up, or come back towards the robot from behind the object without being steep.
     """
-    z = tool_axes(_level(heading), math.radians(elevation), False)[2]
-    if request.T_base_object.rotate(z)[2] > _UPWARD:
-        return True
-    return elevation < _STEEP_DEG and _alignment(request, heading) < _BEHIND
+    behind = _BEHIND if tilt.elevation_deg < _STEEP_DEG else -math.inf
+    level, down, cost = tilt.level, tilt.down * axis_z, tilt.cost
+    # Side and oblique grasps first, heading away from the robot; a straight one heads nowhere.
+    away = 0.0 if tilt.elevation_deg == 90.0 else 0.2
+    return [
+        (number, cost + away * (1.0 - alignment))
+        for number, (alignment, rise) in enumerate(headings)
+        if alignment >= behind and level * rise - down <= _UPWARD
+    ]
 
 
-def _alignment(request: Request, heading: float) -> float:
-    """Cosine between the heading and the way from shoulder to object, in the base frame."""
-    x, y, _ = request.T_base_object.rotate(_level(heading))
-    return x * request.reach[0] + y * request.reach[1]
+def _members(
+    hopeful: list[tuple[int, float]], rolls: list[tuple[tuple[Way, ...], list[_Height]]]
+) -> list[ToolPose]:
+    """The members at one tilt, in the order of their names; their costs, of about 0 .. 1, have six decimals.
 
-
-def _heights(request: Request, elevation_rad: float, turned: bool) -> tuple[float, ...]:
-    """Heights of the grasp point above the object's bottom that keep floor, palm and standoff; highest
-    first.
+    They are filled field by field, because to call a class costs several times as much as all the rest of
+    a member, and there are hundreds of them.
     """
-    height, half = request.height_m, request.closing.half_depth_m
-    floor = request.floor_m + request.clearance_m + drop_m(elevation_rad, turned)
-    lowest = max(floor, height - _deepest(request, elevation_rad))
-    highest = height - min(_TOP_MARGIN_M, height / 5)
+    found: list[ToolPose] = []
+    bare: Callable[[type], Any] = object.__new__
+    for number, way_cost in hopeful:
+        for ways, heights in rolls:
+            words, quaternion = ways[number]
+            for under, point_m, height_cost, _ in heights:
+                pose: Any = bare(Pose)
+                member: Any = bare(ToolPose)
+                pose.position_m, pose.quaternion = point_m, quaternion
+                member.name, member.T_reference_tool = words + under, pose
+                member.cost = (1e6 * (way_cost + height_cost) + 0.5) // 1.0 / 1e6
+                found.append(member)
+    return found
+
+
+def _heights(request: Request, tilt: Tilt, roll: Roll) -> list[_Height]:
+    """Heights of the grasp point above the object's bottom that keep floor, palm and standoff, in the order
+    of their words.
+    """
+    top, half = request.height_m, request.closing.half_depth_m
+    lowest = max(request.floor_m + request.clearance_m + roll.drop_m, top - _deepest(request, tilt))
+    found: list[_Height] = []
+    for exact in _sampled(request, lowest):
+        height = math.ceil(exact * 10_000 - 1e-6) / 10_000
+        standoff_m = standoff_needed_m(top - height, half, tilt.down, tilt.level, request.hand)
+        if standoff_m <= request.standoff_m + 1e-9:
+            under = f", {(top - height) * 1000:.1f} mm under the top"
+            found.append((under, (0.0, 0.0, height), 0.1 * (1.0 - height / top), standoff_m))
+    found.sort()
+    return found
+
+
+def _sampled(request: Request, lowest: float) -> tuple[float, ...]:
+    """The written height if it is not under the lowest one, else up to three between that and the top."""
+    top = request.height_m
     if request.depth_m is not None:
-        wanted = height - request.depth_m
-        heights: tuple[float, ...] = (wanted,) if lowest <= wanted <= height else ()
-    elif lowest > highest:
+        wanted = top - request.depth_m
+        return (wanted,) if lowest <= wanted <= top else ()
+    highest = top - min(_TOP_MARGIN_M, top / 5)
+    room = highest - lowest
+    if room < 0.0:
         return ()
-    else:
-        room = highest - lowest
-        count = 1 if room < 0.008 else 2 if room < 0.025 else 3
-        heights = tuple(highest - room * k / max(1, count - 1) for k in range(count))
-    rounded = (math.ceil(value * 10_000 - 1e-6) / 10_000 for value in heights)
-    return tuple(
-        value
-        for value in rounded
-        if standoff_needed_m(height - value, half, elevation_rad, request.hand) <= request.standoff_m + 1e-9
-    )
+    if room < 0.008:
+        return (highest,)
+    return (highest, highest - room) if room < 0.025 else (highest, highest - room / 2, highest - room)
 
 
-def _deepest(request: Request, elevation_rad: float) -> float:
+def _deepest(request: Request, tilt: Tilt) -> float:
     """How far under the top the grasp point may lie before the object meets the palm."""
-    side = request.closing.half_depth_m * math.cos(elevation_rad)
-    room = request.hand.palm_m - request.clearance_m - side
+    room = request.hand.palm_m - request.clearance_m - request.closing.half_depth_m * tilt.level
     if room < 0.0:
         return -math.inf
-    down = math.sin(elevation_rad)
-    return math.inf if down < 1e-9 else room / down
-
-
-def _at_heights(
-    request: Request, elevation: float, heading: float, turned: bool, heights: tuple[float, ...]
-) -> Iterator[ToolPose]:
-    """The members that differ in nothing but their height on the object."""
-    x, y, z = tool_axes(_level(heading), math.radians(elevation), turned)
-    quaternion = Pose.from_axes((0.0, 0.0, 0.0), x, y, z).quaternion
-    kind = {0.0: "from the side", 90.0: "straight down"}.get(elevation, f"{elevation:g} deg down")
-    azimuth = math.degrees(heading) % 360.0
-    way = f"{kind}, azimuth {azimuth:g} deg{', rolled' if turned else ''}"
-    # Side and oblique grasps first, heading away from the robot; a straight one heads nowhere. About 0 .. 1.
-    steep = {60.0: 0.1, 90.0: 0.4}.get(elevation, 0.0)
-    turned_away = 0.0 if elevation == 90.0 else 0.2 * (1.0 - _alignment(request, heading))
-    for height in heights:
-        depth_mm = (request.height_m - height) * 1000
-        cost = round(steep + turned_away + 0.1 * (1.0 - height / request.height_m), 6)
-        pose = Pose((0.0, 0.0, height), quaternion)
-        yield ToolPose(f"{way}, {depth_mm:.1f} mm under the top", pose, cost)
-
-
-def _level(heading: float) -> tuple[float, float, float]:
-    return (math.cos(heading), math.sin(heading), 0.0)
+    return math.inf if tilt.down < 1e-9 else room / tilt.down
