@@ -70,6 +70,21 @@ def test_what_a_service_sees_in_a_picture_is_the_world(lab: Profile, folder: Pat
     assert "`broken.json` is not of the form `pose_request`: " in broken.err
 
 
+def test_a_picture_of_another_lab_is_not_sent(folder: Path) -> None:
+    request = json.loads((folder / "picture.json").read_text(encoding="utf-8"))
+    (folder / "other.json").write_text(json.dumps({**request, "output_frame": "nowhere"}), encoding="utf-8")
+    ran = xei("world", "show", "--world", "http://127.0.0.1:1", "--picture", "other.json", cwd=folder)
+    assert (ran.code, ran.out) == (1, "")
+    assert "`other.json` is no picture of this lab: it wants poses in `nowhere`" in ran.err
+
+
+def test_a_password_in_an_address_is_neither_used_nor_shown(folder: Path) -> None:
+    url = "http://me:secret@127.0.0.1:1"
+    ran = xei("world", "show", "--world", url, "--picture", "picture.json", cwd=folder)
+    assert (ran.code, "error[XEI0663]" in ran.err, "secret" in ran.err) == (1, True, False)
+    assert "`--token-file FILE`" in ran.err
+
+
 def test_a_service_that_is_gone_is_not_replaced_by_priors(folder: Path) -> None:
     ran = xei("world", "show", "--world", "http://127.0.0.1:1", "--picture", "picture.json", cwd=folder)
     assert (ran.code, ran.out) == (1, "")

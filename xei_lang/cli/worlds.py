@@ -15,6 +15,12 @@ if TYPE_CHECKING:
     from xei_lang.world.perception.pose_request import PoseRequest
     from xei_lang.world.sources import Observations
 
+_RECORD = (
+    "record what was seen as a scene file (`xei schema scene_file`), or a picture for a pose service: "
+    "`--picture FILE` (`xei schema pose_request`)"
+)
+_TOKEN = "give a token in a file: `--token-file FILE`"
+
 
 def observed_by(
     asked: WorldOptions, profile: Profile, color: bool
@@ -23,10 +29,13 @@ def observed_by(
 
     Exits where a pose service is to be asked and the libraries for that are not installed.
     """
-    service = asked.source.startswith(("http://", "https://"))
+    service = asked.source.lower().startswith(("http://", "https://"))
     if asked.picture is not None and not service:
         note = f"`--picture` is for a pose service, and `--world` names `{asked.source}`"
         return (), (_no_source(asked.source, note),)
+    if service and "@" in asked.source.split("/")[2]:
+        note = "a user and a password in an address would stand in every plan that is made with it"
+        return (), (_no_source(asked.source.rpartition("@")[2], note, _TOKEN),)
     return _seen_by_service(asked, profile, color) if service else observed_in(asked.source, profile)
 
 
@@ -58,6 +67,11 @@ def _seen_by_service(
     request, problems = _read_request(asked.picture, url)
     if request is None:
         return (), problems
+    from xei_lang.world.perception.unfit import unfit
+
+    wrong = unfit(profile, request)
+    if wrong is not None:
+        return (), (_no_source(url, f"`{asked.picture}` is no picture of this lab: {wrong}"),)
     from xei_lang.cli.pose_service import read_token
     from xei_lang.world.perception.client import PoseClient
     from xei_lang.world.perception.observe import observe
@@ -95,9 +109,5 @@ def _read_request(picture: Path, url: str) -> tuple[PoseRequest | None, Diagnost
     return request, ()
 
 
-def _no_source(named: str, note: str) -> Diagnostic:
-    help_ = (
-        "record what was seen as a scene file (`xei schema scene_file`), or a picture for a pose service: "
-        "`--picture FILE` (`xei schema pose_request`)"
-    )
-    return Diagnostic("XEI0663", f"`{named}` cannot be asked where things are", notes=(note,), help=(help_,))
+def _no_source(named: str, note: str, help: str = _RECORD) -> Diagnostic:
+    return Diagnostic("XEI0663", f"`{named}` cannot be asked where things are", notes=(note,), help=(help,))

@@ -71,6 +71,19 @@ def trickle(handler, rogue: Rogue) -> None:
         time.sleep(0.05)
 
 
+def trickle_of_head(handler, rogue: Rogue) -> None:
+    handler.wfile.write(b"HTTP/1.1 200 OK\r\n")
+    for index in range(100):
+        handler.wfile.write(b"X-%d: 1\r\n" % index)
+        time.sleep(0.05)
+
+
+def interim(handler, rogue: Rogue) -> None:
+    while True:
+        handler.wfile.write(b"HTTP/1.1 100 Continue\r\n\r\n")
+        time.sleep(0.01)
+
+
 def pour(handler, rogue: Rogue) -> None:
     """Two gigabytes, if they are taken."""
     handler.wfile.write(b"HTTP/1.1 200 OK\r\nConnection: close\r\n\r\n")
@@ -118,7 +131,7 @@ def test_what_misbehaves_is_told_as_such(behaviour, reason, code):
     assert rogue.sent < 64_000_000
 
 
-@pytest.mark.parametrize("behaviour", [never, trickle])
+@pytest.mark.parametrize("behaviour", [never, trickle, trickle_of_head, interim])
 def test_what_is_slow_is_given_up_once_its_time_is_over(behaviour):
     with misbehaving(behaviour) as rogue:
         found = asked(rogue.url, Limits(call_s=0.4, tries=5))

@@ -21,6 +21,7 @@ from xei_lang.world.perception.contract import (
     ObjectsModel,
     PoseResponseModel,
 )
+from xei_lang.world.perception.hang_up import hung_up_after
 from xei_lang.world.perception.pose_request import PoseRequest, PoseResponse
 from xei_lang.world.perception.registry import RegisteredObject, Registry
 from xei_lang.world.perception.replies import Reply, garbage, http_fault, unlike
@@ -143,18 +144,23 @@ class PoseClient:
         headers = {} if body is None else {"Content-Type": "application/json"}
         url = self.url.rstrip("/") + path
         try:
-            with session.stream(method, url, content=body, headers=headers, timeout=timeout) as answer:
+            with hung_up_after(left) as trace, session.stream(
+                method, url, content=body, headers=headers, timeout=timeout, extensions={"trace": trace}
+            ) as answer:  # fmt: skip
                 return self._read(answer, ends)
-        except (httpx.ConnectTimeout, httpx.ConnectError):
-            return self._away()
-        except httpx.TimeoutException:
-            return self._slow()
         except (httpx.InvalidURL, httpx.UnsupportedProtocol, UnicodeError):
             return ServiceFault("unreachable", f"`{self.url}` is no address of a pose service",
                                 "give one such as http://127.0.0.1:8765")  # fmt: skip
         except httpx.HTTPError as error:
-            message = f"the pose service at {self.url} dropped the connection: {type(error).__name__}"
-            return ServiceFault("dropped", message, "look at what it says itself; it may have ended")
+            return self._broken_off(error, ends)
+
+    def _broken_off(self, error: httpx.HTTPError, ends: float) -> ServiceFault:
+        if isinstance(error, httpx.ConnectTimeout | httpx.ConnectError):
+            return self._away()
+        if isinstance(error, httpx.TimeoutException) or time.monotonic() >= ends:
+            return self._slow()
+        message = f"the pose service at {self.url} dropped the connection: {type(error).__name__}"
+        return ServiceFault("dropped", message, "look at what it says itself; it may have ended")
 
     def _read(self, answer: httpx.Response, ends: float) -> Reply | ServiceFault:
         bound = self.limits.answer_bytes
