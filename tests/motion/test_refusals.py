@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
+
+import pytest
 
 from tests.motion.sequence.bench import DESCRIPTION, bench, goals, obj, plan, planned, slot, spot
 from xei_lang.diagnostics import Diagnostic
@@ -12,6 +15,9 @@ from xei_lang.ir.tool_paths import Turn
 from xei_lang.ir.world import World
 from xei_lang.motion.plan import plan_motion
 from xei_lang.motion.robot import load_robot
+from xei_lang.motion.sequence import group, sound
+from xei_lang.motion.sequence.space import Touch
+from xei_lang.profiles.model import Profile
 
 PUT = plan(
     ("pick", {"object": obj("tube_1"), "arm": "right"}),
@@ -106,3 +112,60 @@ def test_a_configuration_outside_the_range_names_the_joint_and_the_range() -> No
     assert said.code == "XEI0807"
     assert said.message == "`openarm_right_joint4` cannot stand at 9.000 rad"
     assert f".. {limit.upper:.3f} rad" in said.label
+
+
+def on_table(world: World, name: str, x_m: float, y_m: float) -> World:
+    """The world with an object put on the table."""
+    changed = standing(world, name, x_m, y_m, 0.0)
+    loose = (replace(item, place="") if item.name == name else item for item in changed.objects)
+    return replace(changed, objects=tuple(loose))
+
+
+def blocked_place() -> tuple[Profile, World]:
+    """A bottle at hand, and a plate where it is to be set down: too low for any hand to meet it."""
+    profile, world = bench()
+    world = on_table(on_table(world, "wipe_1", 0.08, 0.60), "bottle_1", 0.08, 0.45)
+    return profile, on_table(world, "cap_rest_1", 0.08, 0.33)
+
+
+SET_DOWN = plan(
+    ("pick", {"object": obj("bottle_1"), "arm": "left"}),
+    ("place", {"object": obj("bottle_1"), "on": spot("table", "beaker"), "arm": "left"}),
+)
+
+
+def test_a_place_where_the_object_itself_does_not_fit_is_refused_before_any_grasp_is_tried(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    tried: list[int] = []
+    monkeypatch.setattr(sound, "first_touch", lambda *_: tried.append(1))
+    timed, problems = planned(SET_DOWN, *blocked_place())
+    assert timed is None
+    assert tried == []
+    assert problems[0].code == "XEI0802"
+    assert problems[0].span == SET_DOWN.steps[1].span
+    assert problems[0].message == (
+        'no grasp brings the left hand to `table.spot("beaker")` with `bottle_1`:'
+        " `bottle_1` itself would touch `cap_rest_1`"
+    )
+
+
+def test_a_search_in_which_every_candidate_falls_ends_after_a_count(monkeypatch: pytest.MonkeyPatch) -> None:
+    looked: list[int] = []
+    whole = sound.first_touch
+
+    def counted(*args: Any) -> Touch | None:
+        looked.append(1)
+        return whole(*args)
+
+    # As if what stood in the way were a thing that each grasp meets by itself.
+    monkeypatch.setattr(group, "object_touch", lambda *_: None)
+    monkeypatch.setattr(sound, "first_touch", counted)
+    monkeypatch.setattr(group, "MAX_STRIKES", 40)
+    timed, problems = planned(SET_DOWN, *blocked_place())
+    assert timed is None
+    assert problems[0].code == "XEI0802"
+    assert problems[0].span == SET_DOWN.steps[1].span
+    assert any(note.startswith("the search ended when") for note in problems[0].notes)
+    efforts, chains = 2, 2
+    assert len(looked) <= efforts * chains * (40 + 1)

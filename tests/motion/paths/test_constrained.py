@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from xei_lang.motion.paths.constrained import STEP_S, constrained_connect
+from xei_lang.motion.paths.constrained import PROJECTIONS_PER_EDGE, STEP_S, constrained_connect
 
 Array = NDArray[np.float64]
 
@@ -78,3 +78,13 @@ def test_equal_seeds_give_equal_ways() -> None:
     assert ways[0] is not None
     assert ways[1] is not None
     assert np.array_equal(ways[0], ways[1])
+
+
+def test_a_start_that_no_step_leaves_ends_the_search() -> None:
+    tried: list[Array] = []
+
+    def never(q: Array) -> Array | None:
+        tried.append(q)
+
+    assert constrained_connect(Plane(), never, EAST, NORTH, 1, 20) is None
+    assert len(tried) == 20 * PROJECTIONS_PER_EDGE

@@ -8,7 +8,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from xei_lang.motion.sequence.choose import Speeds, Stage, cheapest
+from xei_lang.motion.sequence.choose import Runs, Speeds, Stage, cheapest
 
 
 def stages_and_costs(seed: int, sizes: list[int]) -> tuple[tuple[Stage, ...], tuple[np.ndarray, ...]]:
@@ -54,3 +54,20 @@ def test_slowing_down_stretches_time() -> None:
     speeds = Speeds(np.array([2.0, 1.0]), np.array([4.0, 3.0]))
     distance = np.array([[0.7, 0.1], [0.0, 4.0]])
     assert np.allclose(speeds.scaled(0.2).of_distance(distance), speeds.of_distance(distance) / 0.2)
+
+
+@given(st.integers(0, 10_000), st.lists(st.integers(1, 5), min_size=2, max_size=4))
+def test_asked_again_after_a_change_it_answers_as_if_asked_for_the_first_time(
+    seed: int, sizes: list[int]
+) -> None:
+    random = np.random.default_rng(seed)
+    stages, costs = stages_and_costs(seed, sizes)
+    runs = Runs(costs)
+    for _ in range(8):
+        assert runs.cheapest(stages) == cheapest(stages, costs)
+        stage, cost = int(random.integers(len(stages))), int(random.integers(len(costs)))
+        stages[stage].alive[int(random.integers(sizes[stage]))] = False
+        if random.uniform() < 0.3:
+            costs[cost][0, 0] += 1.0
+            runs.changed(cost)
+    assert runs.cheapest(stages) == cheapest(stages, costs)

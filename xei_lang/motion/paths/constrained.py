@@ -20,14 +20,22 @@ Project = Callable[[Array], Array | None]
 STEP_S = 0.12
 """Longest step, as seconds of motion at full speed."""
 SHORTCUTS = 80
+PROJECTIONS_PER_EDGE = 5
+"""How many steps may be projected for each edge that may be looked at: from a start that hardly any step
+leaves, edges alone would never be used up."""
 _SAME_S = 1e-6
 
 
 class _Budget:
-    """How many edges may still be looked at."""
+    """How many edges may still be looked at, and how many steps projected."""
 
     def __init__(self, edges: int) -> None:
-        self.left = edges
+        self.edges = edges
+        self.projections = PROJECTIONS_PER_EDGE * edges
+
+    @property
+    def lasts(self) -> bool:
+        return self.edges > 0 and self.projections > 0
 
 
 class _Tree:
@@ -60,13 +68,13 @@ def constrained_connect(
     space: FreeSpace, project: Project, q_start: Array, q_goal: Array, seed: int, max_checks: int
 ) -> Array | None:
     """Waypoints (m, n) at most `STEP_S` apart, each keeping the constraint, with free straight lines between
-    them; None once `max_checks` edges have been tried. Both ends must keep the constraint. Shortening a way
-    that was found may take half as many again.
+    them; None once `max_checks` edges have been tried, or `PROJECTIONS_PER_EDGE` times as many steps. Both ends
+    must keep the constraint. Shortening a way that was found may take half as many again.
     """
     random, budget = np.random.default_rng(seed), _Budget(max_checks)
     here, there, forward = _Tree(q_start), _Tree(q_goal), True
     target = q_goal
-    while budget.left > 0:
+    while budget.lasts:
         start = here.nearest(target, space.speed)
         steps, _ = _walk(space, project, here.nodes[start], target, budget)
         end = here.grow(start, steps)
@@ -89,16 +97,17 @@ def _walk(
     steps: list[Array] = []
     now, left = start, _seconds(space, start, target)
     while left > _SAME_S:
-        if budget.left <= 0:
+        if not budget.lasts:
             return steps, False
         share = min(1.0, STEP_S / left)
+        budget.projections -= 1
         following = project(now + share * (target - now))
         if following is None or _outside(space, following):
             return steps, False
         gap, step = _seconds(space, following, target), _seconds(space, now, following)
         if gap > left - 0.1 * min(STEP_S, left) or step > 2.0 * STEP_S:
             return steps, False
-        budget.left -= 1
+        budget.edges -= 1
         if not space.edge_is_free(now, following):
             return steps, False
         steps.append(following)

@@ -18,11 +18,12 @@ from xei_lang.motion.sequence.assemble import Untimed
 from xei_lang.motion.sequence.blame_way import blame_transit, mm, who
 from xei_lang.motion.sequence.census import Census, take_census
 from xei_lang.motion.sequence.context import Context
-from xei_lang.motion.sequence.group import BlockedTransit, Failure, Unplaced
+from xei_lang.motion.sequence.group import MAX_STRIKES, BlockedTransit, Failure, Unplaced
 from xei_lang.motion.sequence.reach import nearest_reach, reach_help
 from xei_lang.motion.sequence.sections import Chain
 
 _SHOWN_BODIES = 4
+_GIVEN_UP = (f"the search ended when {MAX_STRIKES} candidates had failed on their whole way",)
 
 
 def refuse(context: Context, graph: MotionGoalGraph) -> Diagnostic | None:
@@ -116,6 +117,8 @@ def blame_group(context: Context, failure: Failure) -> Diagnostic:
     """A chain that found no candidate, or a transit that found no path."""
     if isinstance(failure, BlockedTransit):
         return blame_transit(context, failure)
+    if failure.unfit is not None:
+        return _unfit(context, failure, *failure.unfit)
     census = take_census(context, failure)
     if census.within_limits == 0:
         return _unreachable(context, failure, census)
@@ -143,6 +146,24 @@ def _unreachable(context: Context, failure: Unplaced, census: Census) -> Diagnos
     )
 
 
+def _unfit(context: Context, failure: Unplaced, thing: str, other: str) -> Diagnostic:
+    chain, item = failure.rehearsal.chain, context.world.find(other)
+    away = item is not None and item.movable
+    return Diagnostic(
+        "XEI0802",
+        f"no grasp brings the {chain.arm} hand to {_subject(chain)}: `{thing}` itself would touch `{other}`",
+        chain.head.span,
+        f"`{thing}` is not free of contact on the way in, or there",
+        notes=(
+            "whichever way it is held: measured on the profile's collision shapes, with the clearance of the"
+            " calibration profile",
+        ),
+        help=(f"choose a place farther from `{other}`, or move `{other}` away first",)
+        if away
+        else (f"choose a place farther from `{other}`",),
+    )
+
+
 def _crowded(failure: Unplaced, census: Census) -> Diagnostic:
     chain = failure.rehearsal.chain
     hit = [f"`{name}`" for name, _ in census.bodies[:_SHOWN_BODIES]]
@@ -156,6 +177,7 @@ def _crowded(failure: Unplaced, census: Census) -> Diagnostic:
             _counted(census),
             "a grasp must be in reach and free of contact on the way in, at the place and on the way out,"
             " at one slide height",
+            *(_GIVEN_UP if failure.given_up else ()),
         ),
         help=_room_help(chain, census),
     )
@@ -180,7 +202,12 @@ def _counted(census: Census) -> str:
         f"{count} touch `{name}`" if count > 1 else f"1 touches `{name}`" for name, count in census.bodies
     )
     if census.off_line:
-        parts.append(f"{census.off_line} leave a joint's range on the way")
+        leave = "leaves" if census.off_line == 1 else "leave"
+        parts.append(f"{census.off_line} {leave} a joint's range on the way")
+    if census.untaken:
+        parts.append(
+            f"{census.untaken} would do here alone, but not where the object is taken or handled next"
+        )
     if not parts:
         return f"of {census.total} grasps none is left"
     return f"of {census.total} grasps {_listed(parts, 'and')}"

@@ -46,6 +46,8 @@ def _counted(context: Context, failure: Failure) -> tuple[str, ...]:
     """Why each grasp fell, or what is met on the way of those that did not."""
     if not isinstance(failure, Unplaced):
         return blame_transit(context, failure).notes
+    if failure.unfit is not None:
+        return ("there, `{}` itself would touch `{}`, whichever way it is held".format(*failure.unfit),)
     census = take_census(context, failure)
     counts = [
         f"{count} {what}"

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 Bools = NDArray[np.bool_]
+Ints = NDArray[np.intp]
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,14 +33,23 @@ class Speeds:
         """Lower bound (a, b) of the rest-to-rest time between configurations (a, n) and (b, n): the slowest
         joint's.
         """
-        return self.of_distance(np.abs(q_to[None, :, :] - q_from[:, None, :]))
+        slowest = np.zeros((len(q_from), len(q_to)))
+        for joint in range(q_from.shape[1]):
+            # A joint at a time, into one array: layers of thousands would else fill gigabytes.
+            distance = np.abs(q_to[None, :, joint] - q_from[:, None, joint])
+            np.maximum(slowest, self._of_joint(joint, distance), out=slowest)
+        return slowest
 
     def of_distance(self, distance: Array) -> Array:
         """Lower bound (...) of the rest-to-rest time over distances (..., n) of the joints."""
-        ramp = self.velocity**2 / self.acceleration
-        short = 2.0 * np.sqrt(distance / self.acceleration)
-        long = distance / self.velocity + self.velocity / self.acceleration
-        return np.where(distance < ramp, short, long).max(axis=-1)
+        joints = range(distance.shape[-1])
+        return np.stack([self._of_joint(joint, distance[..., joint]) for joint in joints]).max(axis=0)
+
+    def _of_joint(self, joint: int, distance: Array) -> Array:
+        velocity, acceleration = self.velocity[joint], self.acceleration[joint]
+        short = 2.0 * np.sqrt(distance / acceleration)
+        long = distance / velocity + velocity / acceleration
+        return np.where(distance < velocity**2 / acceleration, short, long)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,22 +64,64 @@ class Stage:
     alive: Bools
 
 
+@dataclass(frozen=True, slots=True)
+class _Step:
+    """Into a stage: the totals (a,) that it was reckoned from, and for each candidate the least total (b,) on
+    the way in and the index (b,) that it comes from.
+    """
+
+    before: Array
+    least: Array
+    origin: Ints
+
+
+class Runs:
+    """The dynamic programme, asked again while candidates are struck out and ways become dearer: what has not
+    changed since the last question is not reckoned again.
+    """
+
+    def __init__(self, transitions: tuple[Array, ...]) -> None:
+        self._transitions = transitions
+        self._known: dict[int, _Step] = {}
+
+    def changed(self, transition: int) -> None:
+        """The costs of this transition were changed."""
+        self._known.pop(transition, None)
+
+    def cheapest(self, stages: tuple[Stage, ...]) -> tuple[int, ...] | None:
+        """The index of the chosen candidate at each stage, or None where no run holds."""
+        total = _own_cost(stages[0])
+        for index, stage in enumerate(stages[1:]):
+            self._known[index] = self._step(index, total)
+            total = self._known[index].least + _own_cost(stage)
+        last = int(np.argmin(total))
+        if not np.isfinite(total[last]):
+            return None
+        run = [last]
+        for index in reversed(range(len(stages) - 1)):
+            run.append(int(self._known[index].origin[run[-1]]))
+        return tuple(reversed(run))
+
+    def _step(self, index: int, total: Array) -> _Step:
+        known, transition = self._known.get(index), self._transitions[index]
+        if known is None or bool((total < known.before).any()):
+            through = total[:, None] + transition
+            origin = np.argmin(through, axis=0)
+            return _Step(total, through[origin, np.arange(len(origin))], origin)
+        # Totals have only grown: the way in changes for those alone that came from where they did.
+        again = np.flatnonzero((total > known.before)[known.origin])
+        if len(again) == 0:
+            return _Step(total, known.least, known.origin)
+        least, origin = known.least.copy(), known.origin.copy()
+        through = total[:, None] + transition[:, again]
+        origin[again] = np.argmin(through, axis=0)
+        least[again] = through[origin[again], np.arange(len(again))]
+        return _Step(total, least, origin)
+
+
 def cheapest(stages: tuple[Stage, ...], transitions: tuple[Array, ...]) -> tuple[int, ...] | None:
-    """The index of the chosen candidate at each stage, or None where no run holds."""
-    total = _own_cost(stages[0])
-    origins: list[NDArray[np.intp]] = []
-    for stage, transition in zip(stages[1:], transitions, strict=True):
-        through = total[:, None] + transition
-        origin = np.argmin(through, axis=0)
-        total = through[origin, np.arange(len(origin))] + _own_cost(stage)
-        origins.append(origin)
-    last = int(np.argmin(total))
-    if not np.isfinite(total[last]):
-        return None
-    run = [last]
-    for origin in reversed(origins):
-        run.append(int(origin[run[-1]]))
-    return tuple(reversed(run))
+    """`Runs.cheapest`, asked once."""
+    return Runs(transitions).cheapest(stages)
 
 
 def _own_cost(stage: Stage) -> Array:

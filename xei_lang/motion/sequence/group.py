@@ -15,25 +15,30 @@ from numpy.typing import NDArray
 
 from xei_lang.ir.goals import MotionGoal
 from xei_lang.motion.paths.free import PathBlocked
-from xei_lang.motion.sequence.choose import Bools, cheapest
+from xei_lang.motion.sequence.choose import Bools, Runs
 from xei_lang.motion.sequence.context import Context
 from xei_lang.motion.sequence.enact import as_held, carry_out
+from xei_lang.motion.sequence.fits import object_touch
 from xei_lang.motion.sequence.fixed import plan_fixed
 from xei_lang.motion.sequence.layers import LEAN, THOROUGH, Effort, Layer, enumerate_layer, slide_heights
 from xei_lang.motion.sequence.motions import Motion
 from xei_lang.motion.sequence.onward import goes_on, onward_layer
-from xei_lang.motion.sequence.parting import Parting, parting_touch
-from xei_lang.motion.sequence.poses import same_grasp
+from xei_lang.motion.sequence.parting import Parting
+from xei_lang.motion.sequence.poses import orbits, same_grasp
 from xei_lang.motion.sequence.rehearse import Rehearsal, rehearse_group
 from xei_lang.motion.sequence.search import Search, avoid, stages_of, travel
 from xei_lang.motion.sequence.sections import Chain, Group
 from xei_lang.motion.sequence.snapshot import UNCHOSEN, Snapshot
-from xei_lang.motion.sequence.space import Touch, motion_contact, space_for, target_check
+from xei_lang.motion.sequence.sound import all_sound
+from xei_lang.motion.sequence.space import Pair, Touch, space_for, target_check
 from xei_lang.motion.sequence.transit import keeps_upright, plan_transit
 
 Array = NDArray[np.float64]
 
 MAX_GLANCES = 6
+MAX_STRIKES = 400
+"""How many candidates may fall by their whole motions before a search ends: each look takes a moment, and a
+place in which so many fall is taken for one that no grasp reaches."""
 DETOUR_FACTOR = 1.3
 DETOUR_S = 0.5
 """What a way around something is taken to cost beside the straight way, where that is blocked."""
@@ -53,10 +58,15 @@ class Ahead:
 
 @dataclass(frozen=True, slots=True)
 class Unplaced:
-    """No candidate of a chain holds: `struck` counts the bodies that the checks of whole motions met."""
+    """No candidate of a chain holds: `struck` counts the bodies that the checks of whole motions met. `unfit`
+    is the held object and what it would itself touch there, with every grasp; `given_up`, that the search has
+    ended before all were tried.
+    """
 
     rehearsal: Rehearsal
     struck: tuple[Touch, ...]
+    unfit: Pair | None = None
+    given_up: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +91,7 @@ def plan_group(context: Context, group: Group, start: Snapshot, ahead: Ahead) ->
     found: tuple[Motion, ...] | Failure = Unplaced(rehearsals[0], ())
     for effort in (LEAN, THOROUGH):
         found = _attempt(context, group, rehearsals, start, ahead, effort)
-        if isinstance(found, tuple):
+        if isinstance(found, tuple) or (isinstance(found, Unplaced) and found.unfit is not None):
             break
     return found
 
@@ -94,23 +104,15 @@ def _attempt(
     ahead: Ahead,
     effort: Effort,
 ) -> tuple[Motion, ...] | Failure:
-    heights = slide_heights(context, float(start.q[context.robot.slide_index]), effort)
     own = len(rehearsals)
     rehearsals = (*rehearsals, *ahead.release)
-    layers: list[Layer] = []
     for rehearsal in rehearsals:
-        chain = rehearsal.chain
-        tried = heights if chain.slide_free else heights[:1]
-        layer = (
-            onward_layer(context, chain, start)
-            if goes_on(chain) and not layers
-            else enumerate_layer(
-                context, chain, tried, _allowed(rehearsal), target_check(context, rehearsal), effort
-            )
-        )
-        if len(layer) == 0:
-            return Unplaced(rehearsal, ())
-        layers.append(layer)
+        unfit = object_touch(context, rehearsal)
+        if unfit is not None:
+            return Unplaced(rehearsal, (), unfit)
+    layers = _layers(context, rehearsals, start, effort)
+    if len(layers[-1]) == 0:
+        return Unplaced(rehearsals[len(layers) - 1], ())
     search = Search(
         own,
         rehearsals,
@@ -119,11 +121,33 @@ def _attempt(
         [[] for _ in layers],
         ahead.parting,
     )
-    return _search(context, group, search, start, ahead, effort.blocked_transits)
+    return _search(context, group, search, start, ahead, effort)
+
+
+def _layers(
+    context: Context, rehearsals: tuple[Rehearsal, ...], start: Snapshot, effort: Effort
+) -> list[Layer]:
+    """The layers of all chains, or up to the first that is empty."""
+    heights = slide_heights(context, float(start.q[context.robot.slide_index]), effort)
+    layers: list[Layer] = []
+    for rehearsal in rehearsals:
+        chain = rehearsal.chain
+        tried = heights if chain.slide_free else heights[:1]
+        if goes_on(chain) and not layers:
+            layer = onward_layer(context, chain, start)
+        else:
+            allowed = _allowed(rehearsal)
+            if effort.exhaustive and layers and chain.arm in rehearsal.before.held:
+                allowed &= _shown(chain, layers[-1])
+            layer = enumerate_layer(context, chain, tried, allowed, target_check(context, rehearsal), effort)
+        layers.append(layer)
+        if len(layer) == 0:
+            break
+    return layers
 
 
 def _search(
-    context: Context, group: Group, search: Search, start: Snapshot, ahead: Ahead, most_blocked: int
+    context: Context, group: Group, search: Search, start: Snapshot, ahead: Ahead, effort: Effort
 ) -> tuple[Motion, ...] | Failure:
     now = start.q[context.arm_indices(group.arm)]
     speeds = context.speeds(context.arm_joints(group.arm))
@@ -133,18 +157,27 @@ def _search(
     if ahead.configuration is not None:
         arm_speeds = context.speeds(context.robot.arm(group.arm).joint_names)
         homeward = arm_speeds.travel_s(last.q[:, -1, 1:], ahead.configuration[None])[:, 0]
+    runs = Runs(transitions)
     failure: Failure | None = None
     blocked = 0
-    while blocked <= most_blocked:
-        run = cheapest(stages_of(now, search, homeward), transitions)
+    while blocked <= effort.blocked_transits:
+        run = runs.cheapest(stages_of(now, search, homeward))
         if run is None:
             return failure or _unplaced(search, transitions)
-        if not _all_sound(context, search, run[1:]) or _dearer(context, search, run, transitions, now):
+        if search.strikes > MAX_STRIKES:
+            return failure or _given_up(search)
+        if not all_sound(context, search, run[1:]):
+            continue
+        dearer = _dearer(context, search, run, transitions, now)
+        for stage in dearer:
+            runs.changed(stage)
+        if dearer:
             continue
         result = _realise(context, group, search, run[1:], start)
         if not isinstance(result, _BlockedAt):
             return result
         avoid(search, result.stage, run, transitions[result.stage])
+        runs.changed(result.stage)
         layer, index = search.layers[result.stage], run[result.stage + 1]
         failure = BlockedTransit(layer.chain.head, result.blocked, result.before, layer, index)
         blocked += 1
@@ -160,32 +193,22 @@ def _allowed(rehearsal: Rehearsal) -> Bools:
     return same_grasp(chain.family, held.member, chain.turns)
 
 
-def _all_sound(context: Context, search: Search, chosen: tuple[int, ...]) -> bool:
-    """Check the linear motions of every chosen candidate; strike out those that touch something."""
-    good = True
-    for stage, (rehearsal, layer, index) in enumerate(
-        zip(search.rehearsals, search.layers, chosen, strict=True)
-    ):
-        if (stage, index) in search.sound:
-            continue
-        parting = search.parting if stage == search.own - 1 else None
-        touch = _first_touch(context, rehearsal, layer, index, parting)
-        if touch is None:
-            search.sound.add((stage, index))
-        else:
-            search.struck[stage].append(touch)
-            search.alive[stage][index] = False
-            good = False
-    return good
+def _shown(chain: Chain, before: Layer) -> Bools:
+    """The members that show a grasp which the layer before has as well: no other may follow."""
+    members = np.arange(len(chain.family.members))
+    if chain.turns:
+        names = orbits(chain.family)
+        return np.isin(names, names[before.member])
+    return np.isin(members, before.member)
 
 
 def _dearer(
     context: Context, search: Search, run: tuple[int, ...], transitions: tuple[Array, ...], now: Array
-) -> bool:
+) -> tuple[int, ...]:
     """Glance at the straight lines of a run that were not looked at before; where one is blocked, its cost
-    goes up.
+    goes up. Returns the stages where one is.
     """
-    found = False
+    found: list[int] = []
     for stage, (rehearsal, layer) in enumerate(zip(search.rehearsals, search.layers, strict=True)):
         pair, seen = (run[stage], run[stage + 1]), search.glanced.setdefault(stage, set())
         if stage >= search.own or pair in seen or len(seen) >= MAX_GLANCES or _is_stated(rehearsal):
@@ -197,31 +220,13 @@ def _dearer(
         space = space_for(context, before, joints, rehearsal.chain.head.allowed_contacts)
         if not space.looks_clear(q_from, layer.q[pair[1], 0]):
             transitions[stage][pair] = DETOUR_FACTOR * transitions[stage][pair] + DETOUR_S
-            found = True
-    return found
+            found.append(stage)
+    return tuple(found)
 
 
 def _is_stated(rehearsal: Rehearsal) -> bool:
     """Whether the straight line in joint space says nothing of the move that a chain begins with."""
     return keeps_upright(rehearsal) or goes_on(rehearsal.chain)
-
-
-def _first_touch(
-    context: Context, rehearsal: Rehearsal, layer: Layer, index: int, parting: Parting | None
-) -> Touch | None:
-    chain = rehearsal.chain
-    before = as_held(chain, rehearsal.before, int(layer.member[index]))
-    start = before.moved(context.lift(before.q, chain.arm, layer.q[index, 0]))
-    motions = carry_out(context, layer, index, start)
-    if motions is None:
-        return Touch(int(layer.member[index]), None)
-    for motion in motions:
-        bodies = motion_contact(context, motion)
-        if bodies is not None:
-            return Touch(int(layer.member[index]), bodies)
-    if parting is not None and motions:
-        return parting_touch(context, parting, motions[-1].after, int(layer.member[index]))
-    return None
 
 
 @dataclass(frozen=True, slots=True)
@@ -267,3 +272,10 @@ def _unplaced(search: Search, transitions: tuple[Array, ...]) -> Unplaced:
         if not reached.any():
             break
     return Unplaced(search.rehearsals[failed], tuple(search.struck[failed]))
+
+
+def _given_up(search: Search) -> Unplaced:
+    """The chain of which most candidates fell, of those first of which none held."""
+    held = {stage for stage, _ in search.sound}
+    worst = max(range(len(search.struck)), key=lambda stage: (stage not in held, len(search.struck[stage])))
+    return Unplaced(search.rehearsals[worst], tuple(search.struck[worst]), given_up=True)

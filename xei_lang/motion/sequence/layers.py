@@ -35,17 +35,18 @@ _FACING_COST = 1.0
 @dataclass(frozen=True, slots=True)
 class Effort:
     """How widely to look: slide heights, grasps wanted at each, configurations of each grasp, and how many
-    blocked transits are put up with.
+    blocked transits are put up with. `exhaustive` leaves out at once what could only fall later.
     """
 
     heights: int
     poses_per_height: int
     configurations_per_pose: int
     blocked_transits: int
+    exhaustive: bool = False
 
 
 LEAN = Effort(5, 8, 5, 3)
-THOROUGH = Effort(13, 10_000, 20, 1)
+THOROUGH = Effort(13, 10_000, 20, 1, exhaustive=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +105,8 @@ def enumerate_layer(
             break
         members = ranked[first : first + MEMBERS_PER_ROUND]
         rows = feasible(solver, poses, members, heights[hungry], effort.configurations_per_pose, chain.legs)
+        if effort.exhaustive:
+            rows = on_line(solver, poses, rows, chain.legs)
         rows = _without_contact(rows, touches)
         kept.append(rows)
         for index in hungry:
@@ -196,6 +199,23 @@ def feasible(
     member, height, branch, angles = member[kept], height[kept], branch[kept], angles[kept]
     q, valid = carried(solver, poses[:, member].swapaxes(0, 1), height, angles, branch)
     return Rows(q, member, angles, branch).kept(np.flatnonzero(valid.all(axis=1)))
+
+
+def on_line(solver: Solver, poses: Array, rows: Rows, legs: tuple[Leg | None, ...]) -> Rows:
+    """The rows that keep their limits half way along the straight moves as well, for tool poses (targets,
+    members, 4, 4).
+    """
+    for target, leg in enumerate(legs):
+        if leg is not None or len(rows) == 0:
+            continue
+        ends = poses[target : target + 2, rows.member]
+        half = ends[0].copy()
+        half[:, :3, 3] = (ends[0, :, :3, 3] + ends[1, :, :3, 3]) / 2
+        _, valid = carried(
+            solver, half[:, None], rows.q[:, 0, 0], rows.swivel_angle[:, target : target + 1], rows.branch
+        )
+        rows = rows.kept(np.flatnonzero(valid[:, 0]))
+    return rows
 
 
 def _key(legs: tuple[Leg | None, ...], targets: int) -> int:

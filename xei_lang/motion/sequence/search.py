@@ -42,6 +42,11 @@ class Search:
     sound: set[tuple[int, int]] = field(default_factory=set[tuple[int, int]])
     glanced: dict[int, set[tuple[int, int]]] = field(default_factory=dict[int, set[tuple[int, int]]])
 
+    @property
+    def strikes(self) -> int:
+        """How many candidates fell by their whole motions."""
+        return sum(len(touches) for touches in self.struck)
+
 
 def stages_of(now: Array, search: Search, homeward: Array) -> tuple[Stage, ...]:
     """Where the arm is now (8,), and each chain as the dynamic programme sees it; `homeward` (n,) is added to
