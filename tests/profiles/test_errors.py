@@ -39,6 +39,15 @@ def test_a_file_that_is_not_utf8(tmp_path, monkeypatch):
     assert (position.line, position.column) == (2, 14)
 
 
+def test_a_pipe_is_no_file_of_a_profile(tmp_path):
+    lab = changed_profile(tmp_path, "usage_profile.yaml")
+    (lab / "usage_profile.yaml").unlink()
+    os.mkfifo(lab / "usage_profile.yaml")
+    _, (found,) = load_profile(lab, None)
+    assert (found.code, found.message) == (
+        "XEI0602", "`usage_profile.yaml` cannot be read: it is no regular file")  # fmt: skip
+
+
 @pytest.mark.parametrize(
     ("text", "code"),
     [

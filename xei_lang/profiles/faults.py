@@ -23,7 +23,18 @@ _KINDS = {
     "model_attributes_type": "a mapping of keys to values",
 }
 _A_NAME = "a name: small letters, digits and `_`, beginning with a letter"
-_PATTERNS = {"^[A-Za-z]": "one to four letters", "^[0-9]{4}-": "a day, such as `2026-11-20`"}
+_PATTERNS = {
+    "^[A-Za-z]": "one to four letters",
+    "^[0-9]{4}-": "a day, such as `2026-11-20`",
+    "^[0-9a-f]{64}": "a SHA-256: 64 digits and letters from a to f",
+    r"^\d{4}-": "a time in UTC, such as `2026-11-20T10:15:00Z`",
+}
+_COUNTED = {
+    "too_short": "at least {min_length} entries",
+    "too_long": "at most {max_length} entries",
+    "string_too_short": "at least {min_length} letters",
+    "string_too_long": "at most {max_length} letters",
+}
 
 
 def explain(error: ValidationError, root: Node, model: type[BaseModel]) -> Diagnostics:
@@ -119,6 +130,15 @@ def _wrong_value(details: ErrorDetails, path: Path, root: Node) -> Diagnostic:
             root.span_of(*path),
             label=f"expected {wanted}",
         )
+    if details["type"] in _COUNTED:
+        context = details.get("ctx", {})
+        wanted = _COUNTED[details["type"]].format(**context)
+        wanted = wanted.replace(" 1 letters", " 1 letter").replace(" 1 entries", " 1 entry")
+        length = context.get("actual_length", len(str(node.scalar)))
+        return Diagnostic(
+            "XEI0609", f"{name} must have {wanted}, found {length}", root.span_of(*path),
+            label=f"expected {wanted}",
+        )  # fmt: skip
     reason = details["msg"].removeprefix("Input should ").removeprefix("Value error, ")
     if details["type"] == "string_pattern_mismatch":
         pattern = details.get("ctx", {}).get("pattern", "")

@@ -48,7 +48,7 @@ def read_folder(folder: Path) -> ProfileFiles:
             path = os.path.join(parent, name)
             if not name.startswith(".") and os.path.isfile(path):
                 with open(path, "rb") as file:
-                    digest = hashlib.sha256(file.read()).hexdigest()
+                    digest = hashlib.file_digest(file, "sha256").hexdigest()
                 hashes.append((os.path.relpath(path, folder).replace(os.sep, "/"), digest))
     return ProfileFiles(folder, shown_path(folder), tuple(sorted(hashes)))
 
@@ -81,7 +81,7 @@ def read_text(
         )
         return None
     try:
-        data = (files.folder / name).read_bytes()
+        data = _bytes_of(files.folder / name)
     except OSError as error:
         missing = isinstance(error, FileNotFoundError)
         message = f"the profile has no `{name}`" if missing else f"`{name}` cannot be read: {error.strerror}"
@@ -108,6 +108,13 @@ def read_text(
         )
         return None
     return _decode(data, name, shown, found)
+
+
+def _bytes_of(path: Path) -> bytes:
+    # Opening a pipe waits for whoever writes to it.
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        raise OSError(None, "it is no regular file")
+    return path.read_bytes()
 
 
 def _decode(data: bytes, name: str, shown: str, found: list[Diagnostic]) -> Source | None:

@@ -7,6 +7,7 @@ just what its reader sees.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
@@ -17,6 +18,7 @@ from xei_lang.profiles.yaml_scalars import Surprise, read_plain
 from xei_lang.profiles.yaml_tree import Node
 
 MAX_DEPTH = 40
+_UNSEEN = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u200e\u200f\u202a-\u202e\u2066-\u2069]")
 
 
 def read_yaml(file: str, text: str) -> tuple[Node | None, Diagnostics]:
@@ -146,6 +148,7 @@ class _Builder:
     def _scalar(self, event: yaml.ScalarEvent) -> None:
         self._refuse_marks(event)
         span = self._span(event)
+        self._refuse_unseen(event.value, span)
         top = self._stack[-1] if self._stack else None
         value = read_plain(event.value) if not event.style else event.value
         if isinstance(value, Surprise):
@@ -153,7 +156,7 @@ class _Builder:
                 "XEI0604",
                 f"`{event.value}` would be read as {value.reads_as}",
                 span,
-                label="quote it, or say it plainly",
+                label=value.label,
                 notes=(f"YAML 1.1 makes {value.reads_as} of an unquoted `{event.value}`",),
                 help=(f"write {value.write}",),
             )
@@ -162,6 +165,18 @@ class _Builder:
             self._take_key(top, event.value, span)
         else:
             self._put(Node("scalar", span, value))
+
+    def _refuse_unseen(self, text: str, span: Span) -> None:
+        """An escape in quotes can make what no reader sees and what a terminal obeys."""
+        unseen = _UNSEEN.search(text)
+        if unseen:
+            self.say(
+                "XEI0603",
+                "a text holds a control character",
+                span,
+                label=f"U+{ord(unseen[0]):04X} is not seen",
+                help=("leave it out",),
+            )
 
     def _take_key(self, top: _Open, key: str, span: Span) -> None:
         top.key = key

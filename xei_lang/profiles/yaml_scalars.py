@@ -16,9 +16,10 @@ _FLOAT = re.compile(r"[-+]?(0|[1-9][0-9]*)(\.[0-9]+)?([eE][-+]?[0-9]+)?")
 _OTHER_BOOL = re.compile(r"yes|no|on|off|y|n|true|false", re.IGNORECASE)
 _SEXAGESIMAL = re.compile(r"[-+]?[0-9]+(:[0-5]?[0-9])+(\.[0-9]*)?")
 _OTHER_NUMBER = re.compile(
-    r"[-+]?(0[0-9_]+|0x[0-9a-f_]+|0b[01_]+|0o[0-7]+|[0-9]+(_[0-9]+)+(\.[0-9_]*)?|\.[0-9]+|[0-9]+\.|\.inf|\.nan)",
+    r"[-+]?(0[0-9_]+|0x[0-9a-f_]+|0b[01_]+|0o[0-7]+|[0-9]+(_[0-9]+)+(\.[0-9_]*)?|\.[0-9]+|[0-9]+\.)",
     re.IGNORECASE,
 )
+_NOT_FINITE = re.compile(r"[-+]?\.inf|\.nan", re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +28,7 @@ class Surprise:
 
     reads_as: str
     write: str
+    label: str = "quote it, or say it plainly"
 
 
 def read_plain(text: str) -> Scalar | Surprise:
@@ -48,6 +50,8 @@ def _surprise(text: str) -> Surprise | None:
         return Surprise("a truth value", f'`{truth}` for a truth value, `"{text}"` for the word')
     if _SEXAGESIMAL.fullmatch(text):
         return Surprise("a number in base 60", f'a quantity such as `90 s`, or `"{text}"` for the text')
+    if _NOT_FINITE.fullmatch(text):
+        return Surprise("a number that is not finite", "what was measured", "no finite number")
     if _OTHER_NUMBER.fullmatch(text):
         return Surprise(
             "a number in a way that readers do not expect", f'the number in plain decimals, or `"{text}"`'

@@ -44,6 +44,8 @@ OPERATION_PARAMETERS = (
 )
 """What the planner of operations computes; a skill bank may add its own under `parameters`."""
 
+_VALUES = ("true", "false", "nothing", "either")
+
 
 def check_names(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
     """Roles, skills, states and operation parameters that objects name; names and aliases that are not
@@ -74,6 +76,8 @@ def check_names(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
 def _unique(profile: Profile) -> Iterator[Diagnostic]:
     seen: dict[str, Span] = {}
     for item in profile.objects:
+        if item.name in (*_VALUES, *profile.bank.arms):
+            yield _a_word(item)
         for name in (item.name, *item.aliases):
             if name in seen:
                 yield _twice(name, item.span, seen[name], "an object")
@@ -84,11 +88,24 @@ def _unique(profile: Profile) -> Iterator[Diagnostic]:
             if name in stations:
                 yield _twice(name, station.span, stations[name], "a station")
             stations.setdefault(name, station.span)
+            if name in seen:
+                yield _twice(name, station.span, seen[name], "a station")
     tags: dict[int, Span] = {}
     for tag in profile.calibration.apriltags.tags:
         if tag.id in tags:
             yield _twice(f"tag {tag.id}", tag.span, tags[tag.id], "a tag")
         tags.setdefault(tag.id, tag.span)
+
+
+def _a_word(item: LabObject) -> Diagnostic:
+    return Diagnostic(
+        "XEI0621",
+        f"`{item.name}` names two things",
+        item.span,
+        label="names an object here",
+        notes=(f"`{item.name}` is a value of the language, which a protocol means wherever it says so",),
+        help=("rename the object",),
+    )
 
 
 def _twice(name: str, span: Span, first: Span, what: str) -> Diagnostic:
