@@ -23,7 +23,11 @@ def lab(tmp_path: Path) -> Path:
 def test_the_only_profile_is_found_and_its_blockers_are_told_with_their_lines(lab: Path) -> None:
     ran = xei("doctor", cwd=lab)
     assert ran.code == 1
-    assert "(profiles/lab/calibration_profile.yaml:" in ran.out
+    lines = (lab / "profiles" / "lab" / "calibration_profile.yaml").read_text(encoding="utf-8").splitlines()
+    (told,) = [line for line in ran.out.splitlines() if line.startswith("      frames.lidar ")]
+    file, number = told.split()[1].split(":")
+    assert file == "profiles/lab/calibration_profile.yaml"
+    assert lines[int(number) - 1] == "  lidar:"
     assert "lab: nothing before simulation" in ran.out
 
 

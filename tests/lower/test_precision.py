@@ -8,7 +8,7 @@ from tests.lower.plans import bench, obj, plan, slot, spot, with_object
 from xei_lang.ir.skill_plan import SkillPlan
 from xei_lang.lower import imprecise_tasks
 from xei_lang.quantity import quantity
-from xei_lang.world.precision import slot_precision
+from xei_lang.world.precision import Benches
 
 
 def carried(*moves: tuple[str, str, str]) -> SkillPlan:
@@ -50,11 +50,11 @@ def test_the_better_of_two_ways_counts() -> None:
     profile, world = bench()
     rack, tube = profile.object("rack_2"), profile.object("tube_1")
     assert rack is not None and tube is not None
-    found = slot_precision(world, profile, rack, "A1", tube)
+    found = Benches.of(world, profile).slot(rack, "A1", tube)
     assert found is not None
     assert found.way.path == ("robot_base", "slide", "camera")
     blind = replace(profile, calibration=replace(profile.calibration, cameras=()))
-    docked = slot_precision(world, blind, rack, "A1", tube)
+    docked = Benches.of(world, blind).slot(rack, "A1", tube)
     assert docked is not None
     assert docked.way.path == ("robot_base", "world", "table")
     assert docked.tolerance_m > 0.08 > found.tolerance_m
@@ -82,3 +82,15 @@ def test_tips_and_openings_ask_for_a_place_known_well() -> None:
         replace(frame, position_tolerance_m=0.0, rotation_tolerance_rad=0.0) for frame in world.frames
     )
     assert not list(imprecise_tasks(steps, profile, replace(world, frames=exact)))
+
+
+def test_a_bench_is_looked_at_from_the_station_that_works_it() -> None:
+    """Seen from the other station, three metres away, a turn of the camera would count for far more."""
+    profile, world = bench()
+    rack, tube = profile.object("rack_3"), profile.object("tube_1")
+    assert rack is not None and tube is not None
+    found = Benches.of(world, profile).slot(rack, "A1", tube)
+    assert found is not None
+    assert found.way.path == ("robot_base", "slide", "camera")
+    (share,) = [one for one in found.way.shares if one.link.name == "camera"]
+    assert share.lever_m < 1.2

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from datetime import date
 from pathlib import Path
 
 import click
@@ -10,11 +11,12 @@ import click
 from xei_lang.cli.exit_codes import INPUT_HAS_ERRORS
 from xei_lang.cli.lab import optional, profile_folder
 from xei_lang.cli.options import wants_color
-from xei_lang.cli.report import exit_code, show, with_quoted
-from xei_lang.diagnostics import Diagnostic, Diagnostics, has_errors
-from xei_lang.doctor import Blocker, deployment_blockers
+from xei_lang.cli.report import exit_code, show
+from xei_lang.diagnostics import Diagnostics, has_errors
+from xei_lang.doctor import Blocker, deployment_blockers, deployment_warnings
 from xei_lang.doctor.faults import fault_blockers
 from xei_lang.profiles.compiled import default_cache
+from xei_lang.profiles.files import shown_path
 from xei_lang.profiles.load import load_profile
 from xei_lang.profiles.model import Profile
 
@@ -50,11 +52,13 @@ def command(
     loaded, said = load_profile(folder, default_cache())
     if loaded is None and not (form == "json" and has_errors(said)):
         show(said, {}, wants_color(color))
-    blockers = fault_blockers(said) if loaded is None else deployment_blockers(loaded)
+    blockers = fault_blockers(said) if loaded is None else deployment_blockers(loaded, date.today())
     if loaded is not None and pose_service is not None:
         blockers += _of_service(loaded, pose_service, token_file, colored=wants_color(color))
+    warnings = deployment_warnings(loaded) if loaded is not None else ()
     if not quiet:
-        click.echo(_rendered(form, folder.name, blockers), nl=False)
+        show(warnings, {}, wants_color(color))
+        click.echo(_rendered(form, folder, blockers, warnings), nl=False)
     sys.exit(INPUT_HAS_ERRORS if blockers or loaded is None else 0)
 
 
@@ -71,11 +75,13 @@ def _of_service(profile: Profile, url: str, token_file: Path | None, *, colored:
     return pose_service_blockers(profile, PoseClient(url, token, Limits(call_s=5.0)))
 
 
-def _rendered(form: str, name: str, blockers: tuple[Blocker, ...]) -> str:
+def _rendered(form: str, folder: Path, blockers: tuple[Blocker, ...], warnings: Diagnostics) -> str:
     from xei_lang.doctor.forms import to_json, to_text
+    from xei_lang.doctor.places import places_of
     from xei_lang.ir.forms.canonical import dumps
+    from xei_lang.profiles.sources import folder_sources
 
+    places = places_of(blockers, shown_path(folder), folder_sources(folder))
     if form == "json":
-        return dumps(to_json(blockers))
-    quoted: Diagnostics = tuple(Diagnostic(item.code, item.item, item.span) for item in blockers)
-    return to_text(name, blockers, with_quoted(quoted, {}))
+        return dumps(to_json(blockers, places, warnings))
+    return to_text(folder.name, blockers, places)

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from xei_lang.doctor.blocker import Blocker
-from xei_lang.ir.world import World
 from xei_lang.profiles.files import CALIBRATION
 from xei_lang.profiles.grid import T_object_slot, is_tip_grid, slot_keys
 from xei_lang.profiles.model import LabObject, Profile
 from xei_lang.quantity import Quantity
 from xei_lang.world.ground import ground
-from xei_lang.world.precision import SlotPrecision, point_precision, slot_precision
+from xei_lang.world.precision import Benches, SlotPrecision
 
 
 def precision_blockers(profile: Profile) -> Iterator[Blocker]:
@@ -19,9 +18,11 @@ def precision_blockers(profile: Profile) -> Iterator[Blocker]:
     pipette may miss.
     """
     world, _ = ground(profile)
-    for holder in profile.objects if world is not None else ():
-        assert world is not None
-        worst = _worst(profile, world, holder)
+    if world is None:
+        return
+    benches = Benches.of(world, profile)
+    for holder in profile.objects:
+        worst = _worst(profile, benches, holder)
         if worst is not None:
             name, found = worst
             mend = (
@@ -29,14 +30,14 @@ def precision_blockers(profile: Profile) -> Iterator[Blocker]:
             )
             yield _blocker(profile, holder, name, found, mend)
         for pipette in profile.objects:
-            missed = _missed_tip(profile, world, holder, pipette)
+            missed = _missed_tip(profile, benches, holder, pipette)
             if missed is not None:
                 mend = f"calibrate `{{frame}}` more closely: the tips of `{holder.name}` take"
                 yield _blocker(profile, holder, pipette.name, missed, mend)
 
 
 def _missed_tip(
-    profile: Profile, world: World, holder: LabObject, pipette: LabObject
+    profile: Profile, benches: Benches, holder: LabObject, pipette: LabObject
 ) -> SlotPrecision | None:
     """The tip of a box that a pipette misses most, by what the skills state as `alignment_tolerance`."""
     grid, tip = holder.slots, pipette.tip
@@ -50,21 +51,19 @@ def _missed_tip(
         return None
     mouths = (T_object_slot(holder, key) for key in slot_keys(grid))
     found = [
-        point_precision(world, profile, holder.name, mouth.position_m, min(stated))
-        for mouth in mouths
-        if mouth is not None
+        benches.point(holder.name, mouth.position_m, min(stated)) for mouth in mouths if mouth is not None
     ]
     missed = [item for item in found if item is not None and not item.is_enough]
     return max(missed, key=lambda item: item.tolerance_m, default=None)
 
 
-def _worst(profile: Profile, world: World, holder: LabObject) -> tuple[str, SlotPrecision] | None:
+def _worst(profile: Profile, benches: Benches, holder: LabObject) -> tuple[str, SlotPrecision] | None:
     grid = holder.slots
     takes = [item for item in profile.objects if grid and set(item.roles) & set(grid.accepts)]
     if grid is None or not takes:
         return None
     widest = max(takes, key=lambda item: max(item.size_m[:2]))
-    found = [slot_precision(world, profile, holder, key, widest) for key in slot_keys(grid)]
+    found = [benches.slot(holder, key, widest) for key in slot_keys(grid)]
     known = [item for item in found if item is not None and not item.is_enough]
     return (widest.name, max(known, key=lambda item: item.tolerance_m)) if known else None
 

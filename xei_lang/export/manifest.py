@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 
 from xei_lang.doctor import Blocker
-from xei_lang.doctor.forms import blocker_json
+from xei_lang.doctor.forms import blocker_json, readiness_json
 from xei_lang.ir.forms.canonical import Json
 
 FORMAT = "xei-bundle"
@@ -43,6 +43,7 @@ class Manifest:
             "seed": self.seed,
             "tools": dict(sorted(self.tools.items())),
             "inputs": dict(sorted(self.inputs.items())),
+            "readiness": readiness_json(self.blockers),
             "blockers": [blocker_json(item) for item in self.blockers],
             "files": dict(sorted(files.items())),
         }

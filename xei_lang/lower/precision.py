@@ -15,7 +15,7 @@ from xei_lang.ir.world import Frame, World
 from xei_lang.lower.precision_of_tips import tip_fits
 from xei_lang.lower.seats import place_text
 from xei_lang.profiles.model import Profile
-from xei_lang.world.precision import SlotPrecision, slot_precision
+from xei_lang.world.precision import Benches, SlotPrecision
 from xei_lang.world.transforms import Transform
 
 _CHAMFER = ", or use slots with a wider chamfer"
@@ -27,8 +27,9 @@ def imprecise_tasks(plan: SkillPlan, profile: Profile, world: World) -> Iterator
     A simulation knows where everything is; on hardware such a task is a matter of luck.
     """
     warned: set[str] = set()
+    benches = Benches.of(world, profile)
     for step in plan.steps:
-        for fit in tip_fits(step, profile, world):
+        for fit in tip_fits(step, benches):
             if fit.holder not in warned and not fit.found.is_enough:
                 warned.add(fit.holder)
                 yield _warning(step, fit.item, fit.where, fit.found, fit.label)
@@ -36,7 +37,7 @@ def imprecise_tasks(plan: SkillPlan, profile: Profile, world: World) -> Iterator
             holder, item = profile.object(place.object), profile.object(name)
             if holder is None or item is None or holder.name in warned:
                 continue
-            found = slot_precision(world, profile, holder, place.key, item)
+            found = benches.slot(holder, place.key, item)
             if found is not None and not found.is_enough:
                 warned.add(holder.name)
                 yield _warning(step, name, place_text(place), found, "the slot takes an error of", _CHAMFER)

@@ -6,14 +6,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, Step
-from xei_lang.ir.world import World
 from xei_lang.lower.operations.draw import ASPIRATE, DISPENSE
 from xei_lang.lower.operations.tip import TIP, alignment_tolerance
 from xei_lang.lower.parameters import layers_of
 from xei_lang.lower.seats import place_text
 from xei_lang.profiles.grid import T_object_slot
 from xei_lang.profiles.model import LabObject, Profile, SkillSpec, Tip
-from xei_lang.world.precision import SlotPrecision, point_precision
+from xei_lang.world.precision import Benches, SlotPrecision
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,8 +26,9 @@ class Fit:
     label: str
 
 
-def tip_fits(step: Step, profile: Profile, world: World) -> Iterator[Fit]:
+def tip_fits(step: Step, benches: Benches) -> Iterator[Fit]:
     """The tips and openings that a step's template leads a pipette to, each once."""
+    profile = benches.profile
     spec, pipette = profile.bank.skill(step.skill), _pipette(step, profile)
     if spec is None or pipette is None or pipette.tip is None:
         return
@@ -36,9 +36,9 @@ def tip_fits(step: Step, profile: Profile, world: World) -> Iterator[Fit]:
     for argument, point in dict.fromkeys((argument, point) for argument, _, point in points):
         value, found = step.arg(argument), None
         if isinstance(value, PlaceRef) and point in TIP.points[1:]:
-            found = _onto(step, spec, pipette, profile, world, value)
+            found = _onto(step, spec, pipette, benches, value)
         elif isinstance(value, ObjectRef) and point in (ASPIRATE.points[1], DISPENSE.points[1]):
-            found = _into(pipette, pipette.tip, profile, world, value.name)
+            found = _into(pipette, pipette.tip, benches, value.name)
         if found is not None:
             yield found
 
@@ -48,23 +48,21 @@ def _pipette(step: Step, profile: Profile) -> LabObject | None:
     return next((known for known in named if known is not None and known.tip is not None), None)
 
 
-def _onto(
-    step: Step, spec: SkillSpec, pipette: LabObject, profile: Profile, world: World, ref: PlaceRef
-) -> Fit | None:
-    box = profile.object(ref.object)
+def _onto(step: Step, spec: SkillSpec, pipette: LabObject, benches: Benches, ref: PlaceRef) -> Fit | None:
+    box = benches.profile.object(ref.object)
     T_box_slot = T_object_slot(box, ref.key) if box else None
     if T_box_slot is None:
         return None
     capture_m = alignment_tolerance(layers_of(step, spec, pipette)).si("Length")
-    found = point_precision(world, profile, ref.object, T_box_slot.position_m, capture_m)
+    found = benches.point(ref.object, T_box_slot.position_m, capture_m)
     text = place_text(ref)
     return Fit(pipette.name, text, ref.object, found, "the tip takes an error of") if found else None
 
 
-def _into(pipette: LabObject, tip: Tip, profile: Profile, world: World, name: str) -> Fit | None:
-    vessel = profile.object(name)
+def _into(pipette: LabObject, tip: Tip, benches: Benches, name: str) -> Fit | None:
+    vessel = benches.profile.object(name)
     if vessel is None or vessel.liquid is None:
         return None
     capture_m = (vessel.liquid.inner_diameter_m - tip.diameter_m) / 2
-    found = point_precision(world, profile, name, (0.0, 0.0, vessel.size_m[2]), capture_m)
+    found = benches.point(name, (0.0, 0.0, vessel.size_m[2]), capture_m)
     return Fit(pipette.name, name, name, found, "the opening takes an error of") if found else None

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from xei_lang.ir.geometry import IDENTITY, Pose
-from xei_lang.ir.world import Frame, RobotState
-from xei_lang.profiles.model import Profile, RobotDescription, RobotJoint
+from xei_lang.ir.world import Frame, RobotState, World, WorldObject
+from xei_lang.profiles.model import Profile, RobotDescription, RobotJoint, SceneOrigin
 
 START_STATE = "home"
 _GRIPPER_START = "closed"
@@ -15,12 +15,18 @@ _GRIPPER_START = "closed"
 def start_state(profile: Profile) -> RobotState:
     """The robot before anything moves: at the start station, slide as the station says, arms at home,
     grippers closed.
+    """
+    calibration = profile.calibration
+    station = next(item for item in calibration.stations if item.name == calibration.start_station)
+    return state_at(profile, station)
+
+
+def state_at(profile: Profile, station: SceneOrigin) -> RobotState:
+    """The robot at a station, slide as the station says, arms at home, grippers closed.
 
     Joints are those that can be planned (not fixed, not mimicking), in the description's order; a joint that
     no state names stands at the point of its range that is nearest to zero.
     """
-    calibration = profile.calibration
-    station = next(item for item in calibration.stations if item.name == calibration.start_station)
     named = dict(profile.robot.state(_GRIPPER_START)) | dict(profile.robot.state(START_STATE))
     joints: list[tuple[str, float]] = []
     for joint in profile.robot.joints:
@@ -29,6 +35,12 @@ def start_state(profile: Profile) -> RobotState:
         value = named.get(joint.name, min(max(0.0, joint.lower), joint.upper))
         joints.append((joint.name, station.slide_m if joint.name == slide_joint(profile) else value))
     return RobotState(tuple(joints), station.name, station.T_world_base)
+
+
+def world_at(profile: Profile, station: SceneOrigin, objects: tuple[WorldObject, ...] = ()) -> World:
+    """The frames of a deployment with the robot at a station."""
+    state = state_at(profile, station)
+    return World(frame_tree(profile, state), objects, state)
 
 
 def slide_joint(profile: Profile) -> str:

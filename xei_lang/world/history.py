@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from xei_lang.diagnostics import Diagnostic
 from xei_lang.ir.tolerance import SIGMAS
 from xei_lang.profiles.model import CalibratedFrame, EarlierTransform
 
@@ -53,6 +54,22 @@ def changes(frame: CalibratedFrame) -> Iterator[Change]:
             ),
         )
         later = earlier
+
+
+def jump_diagnostic(frame: str, change: Change) -> Diagnostic:
+    """What is said of two measurements of a frame that contradict each other (XEI0669)."""
+    apart = f"{1e3 * change.position_m:.2f} mm and {math.degrees(change.rotation_rad):.3f} deg"
+    allowed = (
+        f"{1e3 * change.position_allowed_m:.2f} mm and {math.degrees(change.rotation_allowed_rad):.3f} deg"
+    )
+    when = f"between {change.earlier.measured_on or 'an earlier day'} and {change.later.measured_on or 'now'}"
+    return Diagnostic(
+        "XEI0669",
+        f"`{frame}` moved by {apart} {when}",
+        change.later.span,
+        notes=(f"the tolerances of both measurements allow {allowed}",),
+        help=("if nobody moved it, look for a loose mount, or measure it once more",),
+    )
 
 
 def _allowed(*stated: tuple[float, str]) -> float:

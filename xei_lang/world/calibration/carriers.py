@@ -5,12 +5,12 @@ A frame that hangs on `world` is told from the base, which stands still at a sta
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from xei_lang.ir.geometry import IDENTITY, Pose
 from xei_lang.ir.world import World
-from xei_lang.profiles.model import Profile, RobotDescription, RobotJoint, SceneOrigin
-from xei_lang.world.frames import T_base_link, frame_tree, start_state
+from xei_lang.profiles.model import Profile, RobotDescription, RobotJoint
+from xei_lang.world.frames import T_base_link
 from xei_lang.world.transforms import lookup
 
 BASE = "robot_base"
@@ -40,12 +40,6 @@ def carried(profile: Profile, frame: str) -> Carried | None:
         pose = frames[name].T_parent_frame @ pose
         name = frames[name].parent
     return Carried(frame, links[name], pose)
-
-
-def standing_at(profile: Profile, station: SceneOrigin) -> World:
-    """The frames of a deployment with the base at a station, without objects."""
-    state = replace(start_state(profile), station=station.name, T_world_base=station.T_world_base)
-    return World(frame_tree(profile, state), (), state)
 
 
 def before_base(profile: Profile, frame: str, standing: World) -> Carried:

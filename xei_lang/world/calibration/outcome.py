@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 
-from xei_lang.diagnostics import Diagnostic, Diagnostics
+from xei_lang.diagnostics import Diagnostics
 from xei_lang.ir.tolerance import SIGMAS, ToleranceKind
 from xei_lang.profiles.model import CalibratedFrame, EarlierTransform
 from xei_lang.world.calibration.carriers import BASE
 from xei_lang.world.calibration.hand_eye import HandEye
 from xei_lang.world.calibration.measured import Measured
 from xei_lang.world.calibration.recording import Recording
-from xei_lang.world.history import Change, changes
+from xei_lang.world.history import changes, jump_diagnostic
 from xei_lang.world.transforms import lookup
 
 
@@ -68,19 +68,3 @@ def jump_warning(before: CalibratedFrame, measured: Measured) -> Diagnostics:
         measured.tolerance_as, history=(earlier,),
     )  # fmt: skip
     return tuple(jump_diagnostic(measured.frame, one) for one in changes(now) if one.is_jump)
-
-
-def jump_diagnostic(frame: str, change: Change) -> Diagnostic:
-    """What is said of two measurements of a frame that contradict each other (XEI0669)."""
-    apart = f"{1e3 * change.position_m:.2f} mm and {math.degrees(change.rotation_rad):.3f} deg"
-    allowed = (
-        f"{1e3 * change.position_allowed_m:.2f} mm and {math.degrees(change.rotation_allowed_rad):.3f} deg"
-    )
-    when = f"between {change.earlier.measured_on or 'an earlier day'} and {change.later.measured_on or 'now'}"
-    return Diagnostic(
-        "XEI0669",
-        f"`{frame}` moved by {apart} {when}",
-        change.later.span,
-        notes=(f"the tolerances of both measurements allow {allowed}",),
-        help=("if nobody moved it, look for a loose mount, or measure it once more",),
-    )

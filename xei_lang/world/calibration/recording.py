@@ -23,8 +23,9 @@ from xei_lang.profiles.schema.recording import RecordingModel, SampleModel, Seen
 from xei_lang.profiles.yaml_reader import read_yaml
 from xei_lang.profiles.yaml_tree import Node
 from xei_lang.world.calibration.board import Board, see_board
-from xei_lang.world.calibration.carriers import Carried, before_base, carried, joints_between, standing_at
+from xei_lang.world.calibration.carriers import Carried, before_base, carried, joints_between
 from xei_lang.world.calibration.sample import Sample
+from xei_lang.world.frames import world_at
 from xei_lang.world.perception.optics import T_CAMERA_OPTICAL, Optics, matrix_of
 
 _CODE = "XEI0684"
@@ -142,7 +143,7 @@ def _parent(
     if station is None:
         found.append(_unknown("station", model.station, list(stations), root, "station"))
         return None, None
-    standing = standing_at(profile, station)
+    standing = world_at(profile, station)
     return before_base(profile, frame.parent, standing), standing
 
 
