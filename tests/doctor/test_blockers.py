@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.xei import PROFILES
+from tests.profiles.assets.bodies import cylinder, stl
 from xei_lang.doctor import Blocker, deployment_blockers
 from xei_lang.doctor.faults import fault_blockers
 from xei_lang.doctor.forms import to_text
@@ -84,14 +85,11 @@ frames:
 
 def test_a_named_asset_that_is_not_there_is_missing_as_well(lab: Path, change: Change) -> None:
     tube = '    aliases: ["sample tube 6"]\n'
-    change(
-        "usage_profile.yaml",
-        tube,
-        tube + "    assets: {mesh: assets/tube.stl, point_cloud: assets/tube.xyz}\n",
-    )
+    files = "{mesh: {file: assets/tube.stl, units: mm}, point_cloud: {file: assets/tube.xyz, units: mm}}"
+    change("usage_profile.yaml", tube, f"{tube}    assets: {files}\n")
     assert "there is no `assets/tube.stl`" in found(lab)["objects.tube_6.assets.mesh"].measure
     (lab / "assets").mkdir()
-    (lab / "assets" / "tube.stl").write_text("solid tube\nendsolid\n", encoding="utf-8")
+    (lab / "assets" / "tube.stl").write_bytes(stl(cylinder(17.0, 118.0)))
     items = found(lab)
     assert "objects.tube_6.assets.mesh" not in items
     assert "objects.tube_6.assets.point_cloud" in items

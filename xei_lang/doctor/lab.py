@@ -46,7 +46,8 @@ def _unplaced(item: LabObject) -> Blocker:
 
 def _asset(item: LabObject, asset: str, path: str | None) -> Blocker:
     where = f"objects.{item.name}.assets.{asset}"
-    measure = f"scan `{item.name}` or export it from its drawing, and name the file"
+    kinds = "STL, OBJ or PLY" if asset == "mesh" else "PLY, PCD or XYZ"
+    measure = f"scan `{item.name}` or export it from its drawing, and name the file ({kinds}) with its unit"
     if path is not None:
         measure = f"put the file where the profile has it: there is no `{path}`"
     return Blocker(

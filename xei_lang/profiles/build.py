@@ -7,6 +7,7 @@ from typing import TypeVar
 from pydantic import ValidationError
 
 from xei_lang.diagnostics import Diagnostic, Diagnostics, Source, Span, has_errors
+from xei_lang.profiles.build_assets import AssetReader
 from xei_lang.profiles.build_bank import build_bank
 from xei_lang.profiles.build_calibration import build_calibration
 from xei_lang.profiles.build_objects import build_object
@@ -47,9 +48,10 @@ def build_profile(files: ProfileFiles) -> tuple[Profile | None, Diagnostics]:
     found.extend(faults)
     if robot is None:
         return None, tuple(found)
+    reader = AssetReader(files)
     objects = (
-        *_objects(usage[0].objects, usage[1], "objects", False, found),
-        *_objects(registry[0].system_objects, registry[1], "system_objects", True, found),
+        *_objects(usage[0].objects, usage[1], "objects", reader, found),
+        *_objects(registry[0].system_objects, registry[1], "system_objects", reader, found),
     )
     profile = Profile(
         name=files.folder.resolve().name,
@@ -93,10 +95,11 @@ def _read(
 
 
 def _objects(
-    models: dict[str, ObjectModel], root: Node, section: str, system: bool, found: list[Diagnostic]
+    models: dict[str, ObjectModel], root: Node, section: str, reader: AssetReader, found: list[Diagnostic]
 ) -> tuple[LabObject, ...]:
+    system = section == "system_objects"
     built = (
-        build_object(model, root, (section, name), system=system, found=found)
+        build_object(model, root, (section, name), reader, system=system, found=found)
         for name, model in models.items()
     )
     return tuple(item for item in built if item is not None)

@@ -7,6 +7,7 @@ import re
 
 from xei_lang.diagnostics import Diagnostic
 from xei_lang.ir.geometry import Box, Cylinder, Pose, Primitive, Shape, Vec3
+from xei_lang.profiles.build_assets import AssetReader, read_assets
 from xei_lang.profiles.model import (
     Element,
     FiniteState,
@@ -19,31 +20,24 @@ from xei_lang.profiles.model import (
     Tip,
 )
 from xei_lang.profiles.schema.usage import ObjectModel, PriorModel, ShapeModel
+from xei_lang.profiles.vectors import pose, vec3
 from xei_lang.profiles.yaml_tree import Node, Path
 from xei_lang.quantity import Quantity
 
+_KINDS = ("box", "cylinder", "mesh", "point_cloud")
 _PLACE = re.compile(r"([a-z][a-z0-9_]*)\.(slot|spot)\(\s*\"([^\"]+)\"\s*\)")
 
 
-def vec3(values: list[Quantity] | None) -> Vec3:
-    """Three quantities in SI units; zero where nothing is given."""
-    x, y, z = (value.si for value in values) if values else (0.0, 0.0, 0.0)
-    return (x, y, z)
-
-
-def pose(position: list[Quantity] | None, rpy: list[Quantity] | None) -> Pose:
-    """A pose from a position and fixed-axis roll, pitch, yaw."""
-    return Pose.from_rpy(vec3(position), vec3(rpy))
-
-
 def build_object(
-    model: ObjectModel, root: Node, path: Path, *, system: bool, found: list[Diagnostic]
+    model: ObjectModel, root: Node, path: Path, reader: AssetReader, *, system: bool, found: list[Diagnostic]
 ) -> LabObject | None:
     """The object at `path`, named by its end; None, with diagnostics in `found`, where parts do not fit."""
-    shape = _shape(model.shape, root, (*path, "shape"), found)
+    kind = _kind(model.shape, root, (*path, "shape"), found)
+    shaped = read_assets(model, _stated(model.shape), root, path, reader, found) if kind else None
+    shape = shaped.shape if shaped else None
     parts = _parts(model, shape, root, path, found)
     prior = _prior(model.prior, root, (*path, "prior"), found) if model.prior else None
-    if shape is None or parts is None:
+    if shaped is None or shape is None or parts is None:
         return None
     return LabObject(
         name=str(path[-1]),
@@ -65,7 +59,9 @@ def build_object(
         elements=_elements(model, root, path),
         tip=_tip(model, root, path),
         prior=prior,
-        assets=(("mesh", model.assets.mesh), ("point_cloud", model.assets.point_cloud)),
+        assets=shaped.named,
+        models=shaped.models,
+        computed_from=shaped.computed_from,
         system=system,
         span=root.key_span(*path),
     )
@@ -78,21 +74,31 @@ def operation_defaults(
     return tuple(OperationDefault(key, value, root.span_of(*path, key)) for key, value in values.items())
 
 
-def _shape(model: ShapeModel, root: Node, path: Path, found: list[Diagnostic]) -> Shape | None:
-    if (model.box is None) == (model.cylinder is None):
-        found.append(
-            Diagnostic(
-                "XEI0609",
-                "a shape must be one of `box` and `cylinder`",
-                root.span_of(*path),
-                label="expected just one of the two",
-            )
+def _kind(model: ShapeModel, root: Node, path: Path, found: list[Diagnostic]) -> str:
+    """What a shape is given by; empty, with why in `found`, where that is nothing or more than one."""
+    kinds = [name for name in _KINDS if name in type(model).model_fields]
+    given = [name for name in kinds if getattr(model, name) is not None]
+    if len(given) == 1:
+        return given[0]
+    names = [f"`{name}`" for name in kinds]
+    found.append(
+        Diagnostic(
+            "XEI0609",
+            f"a shape must be one of {', '.join(names[:-1])} and {names[-1]}",
+            root.span_of(*path),
+            label=f"expected just one of the {'two' if len(kinds) == 2 else 'four'}",
         )
-        return None
+    )
+    return ""
+
+
+def _stated(model: ShapeModel) -> Shape | None:
+    """The box or the cylinder that a profile states; None where a shape is taken from a file."""
     if model.box is not None:
         return Box(vec3(model.box))
-    assert model.cylinder is not None
-    return Cylinder(model.cylinder.diameter.si / 2, model.cylinder.height.si)
+    if model.cylinder is not None:
+        return Cylinder(model.cylinder.diameter.si / 2, model.cylinder.height.si)
+    return None
 
 
 def _parts(
@@ -103,7 +109,7 @@ def _parts(
         return (Primitive(shape, Pose((0.0, 0.0, _size(shape)[2] / 2))),) if shape else None
     parts: list[Primitive] = []
     for index, part in enumerate(model.collision):
-        built = _shape(part, root, (*path, "collision", index), found)
+        built = _stated(part) if _kind(part, root, (*path, "collision", index), found) else None
         if built is None:
             return None
         parts.append(Primitive(built, pose(part.position, part.rpy)))
@@ -111,11 +117,11 @@ def _parts(
 
 
 def _size(shape: Shape) -> Vec3:
-    """The edges of the bounding box of a box or a cylinder, metres."""
+    """The edges of the bounding box of a shape that stands upright, metres."""
     if isinstance(shape, Box):
         return shape.size_m
-    assert isinstance(shape, Cylinder)
-    return (2 * shape.radius_m, 2 * shape.radius_m, shape.height_m)
+    across = 2 * shape.radius_m
+    return (across, across, shape.height_m if isinstance(shape, Cylinder) else across)
 
 
 def _states(model: ObjectModel, root: Node, path: Path) -> tuple[FiniteState, ...]:

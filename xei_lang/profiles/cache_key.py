@@ -16,8 +16,8 @@ import xei_lang
 from xei_lang.profiles.files import ProfileFiles
 
 _LOADING = (
-    "profiles", "profiles/checks", "profiles/model", "profiles/schema", "diagnostics", "ir", "quantity",
-    "syntax", "syntax/ast",
+    "profiles", "profiles/assets", "profiles/checks", "profiles/model", "profiles/schema", "diagnostics",
+    "ir", "quantity", "syntax", "syntax/ast",
 )  # fmt: skip
 
 CodeState = tuple[tuple[str, int, int], ...]

@@ -95,8 +95,17 @@ def _provenance(one: Known) -> Iterator[tuple[str, str]]:
     known, own = one.belief, profile_source(one.belief.item)
     yield "pose", known.seen.source if known.seen else f"{own} {PRIOR}{_carried(one)}"
     yield "confidence", known.confidence_from
-    yield from ((field, own) for field in ("roles", "size", "geometry", "mass", "states"))
+    declared = ("roles", "size", "geometry", "mass", "states")
+    yield from ((field, _declared(one, field, own)) for field in declared)
     yield from ((f"states.{name}", source) for name, source in known.states_from)
+
+
+def _declared(one: Known, field: str, own: str) -> str:
+    """Who said a field that the profile declares: a size may come from a file that it names."""
+    item = one.belief.item
+    around = len(item.geometry) == 1 and item.geometry[0].shape == item.shape
+    is_computed = field == "size" or (field == "geometry" and around)
+    return f"{own}, {item.computed_from}" if item.computed_from and is_computed else own
 
 
 def _carried(one: Known) -> str:

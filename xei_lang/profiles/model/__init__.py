@@ -31,6 +31,7 @@ from xei_lang.profiles.model.calibration import (
 )
 from xei_lang.profiles.model.frames import CalibratedFrame, EarlierTransform, Status
 from xei_lang.profiles.model.lab import (
+    Asset,
     Element,
     FiniteState,
     LabObject,
@@ -48,6 +49,7 @@ from xei_lang.record import Record, record
 __all__ = [
     "MOST_TIMES",
     "ArgSpec",
+    "Asset",
     "CalibratedFrame",
     "Calibration",
     "Camera",

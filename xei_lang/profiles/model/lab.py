@@ -124,9 +124,27 @@ class OperationDefault(Record):
 
 
 @record
+class Asset(Record):
+    """A mesh or a point cloud (`what`) that was read: its file's hash and unit, where it is in the object's
+    frame, and the edges of its bounding box there, m.
+    """
+
+    what: Literal["mesh", "point_cloud"]
+    path: str
+    sha256: str
+    units: str
+    T_object_file: Pose
+    size_m: Vec3
+    span: Span
+
+
+@record
 class LabObject(Record):
     """An object of the usage profile or a system object of the registry. Its frame is at its bottom centre, z
     up.
+
+    `assets` are the files that it names, `models` those that were read; `computed_from` says what its size
+    was computed from, and is empty where the profile states it.
     """
 
     name: str
@@ -149,3 +167,5 @@ class LabObject(Record):
     span: Span
     tip: Tip | None = None
     thread: Thread | None = None
+    models: tuple[Asset, ...] = ()
+    computed_from: str = ""

@@ -6,6 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from xei_lang.profiles.schema.assets import AssetsModel, CloudShapeModel, MeshShapeModel
 from xei_lang.profiles.schema.values import (
     AngleVector,
     Count,
@@ -38,6 +39,13 @@ class ShapeModel(Model):
 
     box: SizeVector | None = None
     cylinder: CylinderSize | None = None
+
+
+class ObjectShapeModel(ShapeModel):
+    """Just one of: a box, a cylinder, or what is taken from a mesh or a point cloud."""
+
+    mesh: MeshShapeModel | None = None
+    point_cloud: CloudShapeModel | None = None
 
 
 class PartModel(ShapeModel):
@@ -112,19 +120,12 @@ class PriorModel(Model):
     confidence: Fraction01
 
 
-class AssetsModel(Model):
-    """Files of an object; null is a gap that the startup checks list."""
-
-    mesh: str | None = None
-    point_cloud: str | None = None
-
-
 class ObjectModel(Model):
     """An object: its frame is at its bottom centre, z up."""
 
     aliases: list[Text] = Field(default=[])
     roles: list[Name] = Field(min_length=1)
-    shape: ShapeModel
+    shape: ObjectShapeModel
     collision: list[PartModel] | None = None
     assets: AssetsModel = AssetsModel()
     mass: Mass | None = None

@@ -1,0 +1,1 @@
+"""Meshes and point clouds of objects: reading their files, and the size that they give an object."""
