@@ -1,8 +1,10 @@
-"""What operation parameters cost: grasps and a tap on objects of the bench, each planned anew.
+"""What operation parameters cost: every operation on objects of the bench, and every kind of grasp.
 
 Run by hand: `python tests/bench/bench_operations.py` (50 rounds); `--small` (1 round) only shows that it
-still runs. CPU time of one thread. The baseline, in the same run, is what no planner can do without: for each
-grasp of the family one product of poses, which says where the tool is.
+still runs. CPU time of one thread from a step and a scene to all settings, points and members. Each round
+stands the base a little elsewhere, so that nothing can be remembered from the one before. The baseline, in
+the same run, is what no planner can do without: for each member of the family, or for each point where it
+makes no family, one product of poses, which says where the tool is.
 """
 
 from __future__ import annotations
@@ -11,74 +13,153 @@ import argparse
 import statistics
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT))
 
-from tests.lower.plans import bench, obj, plan  # noqa: E402
-from xei_lang.diagnostics import Span  # noqa: E402
-from xei_lang.ir.skill_plan import ObjectRef, Value  # noqa: E402
-from xei_lang.lower.operations import Planned, Work  # noqa: E402
-from xei_lang.lower.operations.grasp import GRASP  # noqa: E402
-from xei_lang.lower.operations.tap import TAP  # noqa: E402
-from xei_lang.lower.parameters import layers_of  # noqa: E402
+from tests.lower.plans import bench, obj, slot, spot, surface  # noqa: E402
+from tests.lower.works import Args, grasp_of, holding, step_of, work_of  # noqa: E402
+from xei_lang.ir.geometry import Pose  # noqa: E402
+from xei_lang.ir.skill_plan import Fact, ObjectRef, PlaceRef, Step  # noqa: E402
+from xei_lang.lower.look import look_height  # noqa: E402
+from xei_lang.lower.operations import OPERATIONS, Planned  # noqa: E402
+from xei_lang.lower.task import Task  # noqa: E402
 from xei_lang.lower.walk import Scene  # noqa: E402
+from xei_lang.quantity import quantity  # noqa: E402
+
+Job = Callable[[], object]
 
 
-def work_on(skill: str, args: dict[str, Value], subject: str) -> Work:
-    """The work of an operation before anything has moved."""
+@dataclass(frozen=True, slots=True)
+class Case:
+    """An operation of a step of a skill. `about` names what the step is about, which the left hand, or the
+    `giver`, holds already where it is `held`.
+    """
+
+    operation: str
+    skill: str
+    args: Args
+    subject: ObjectRef | PlaceRef
+    about: str
+    held: bool = True
+    giver: str = ""
+    known: tuple[Fact, ...] = ()
+
+    def job(self, scene: Scene) -> Callable[[], Planned]:
+        """The planner's run on this scene, with the layers of its parameters."""
+        plan = next(item.plan for item in OPERATIONS if item.name == self.operation)
+        step = step_of(self.skill, {**self.args, "arm": "left"}, *self.known)
+        if self.held:
+            scene = holding(self.about, scene, "right" if self.giver else "left")
+        return lambda: plan(work_of(step, self.subject, self.about, scene))
+
+
+def cases() -> list[Case]:
+    """Each operation once, and placing in its three kinds of places."""
+    tube, beaker, pipette, wipe = (obj(name) for name in ("tube_1", "beaker_1", "pipette_1", "wipe_1"))
+    screen, source = obj("incubator_screen"), obj("beaker_3")
+    hole, front, table = slot("rack_2", "A1"), spot("table", "front"), surface("table")
+    sample, draw = quantity(Fraction(1, 5), "mL"), {"pipette": pipette, "volume": quantity(200, "uL")}
+    element: Args = {"screen": screen, "element": "start"}
+    swipe: Args = {**element, "direction": "right", "distance": quantity(20, "mm")}
+    area: Args = {"object": wipe, "on": front, "length": quantity(100, "mm"), "width": quantity(180, "mm")}
+    poured: Args = {"source": source, "target": beaker, "volume": quantity(60, "mL")}
+    fill = (Fact("volume", "beaker_3", quantity(180, "mL")), Fact("volume", "beaker_1", sample))
+    low = (Fact("volume", "beaker_3", quantity(80, "mL")),)
+    turn, swing = {"angle": quantity(180, "deg")}, {"amplitude": quantity(20, "deg")}
+    return [
+        Case("lift", "pick", {"object": tube}, tube, "tube_1"),
+        Case("place", "insert", {"object": tube, "into": hole}, hole, "tube_1"),
+        Case("place", "place", {"object": beaker, "on": front}, front, "beaker_1"),
+        Case("place", "place", {"object": beaker, "on": table}, table, "beaker_1"),
+        Case("pour", "pour", poured, beaker, "beaker_3", known=fill),
+        Case("pour", "pour", poured, beaker, "beaker_3", known=low),
+        Case("aspirate", "aspirate", {**draw, "source": source}, source, "pipette_1", known=fill),
+        Case("dispense", "dispense", {**draw, "target": beaker}, beaker, "pipette_1", known=fill),
+        Case("tip", "attach_tip", {"pipette": pipette, "tip": slot("tip_box_1", "B2")},
+             slot("tip_box_1", "B2"), "pipette_1"),
+        Case("eject", "eject_tip", {"pipette": pipette, "waste": obj("waste_bin")}, obj("waste_bin"),
+             "pipette_1"),
+        Case("tap", "tap", element, screen, "incubator_screen", held=False),
+        Case("swipe", "swipe", swipe, screen, "incubator_screen", held=False),
+        Case("wipe", "wipe", area, front, "wipe_1"),
+        Case("give", "handover", {"object": pipette, "to": "right"}, pipette, "pipette_1"),
+        Case("take", "handover", {"object": pipette, "to": "left"}, pipette, "pipette_1", giver="right"),
+        Case("invert", "invert", {"object": tube, **turn}, tube, "tube_1"),
+        Case("shake", "shake", {"object": tube, **swing}, tube, "tube_1"),
+    ]  # fmt: skip
+
+
+GRASPED = ("tube_1", "tube_7", "beaker_1", "bottle_1", "wipe_1", "vial_1", "weight_100g", "pipette_1")
+"""One for each kind of object that hands take; those that stand alike cost alike."""
+
+
+def scenes(rounds: int) -> list[Scene]:
+    """The bench before anything moves, from a little further on in each round."""
     profile, world = bench()
-    spec = profile.bank.skill(skill)
+    start = Scene.of(world, profile)
+    found: list[Scene] = []
+    for k in range(rounds):
+        T_world_base = start.epoch.T_world_base @ Pose.from_rpy((1e-4 * k, 0.0, 0.0), (0.0, 0.0, 1e-4 * k))
+        found.append(replace(start, epoch=replace(start.epoch, T_world_base=T_world_base)))
+    return found
+
+
+def look(scene: Scene) -> Job:
+    """The height of the slide for looking at a tube."""
+    profile, _ = bench()
+    step: Step = step_of("look_at", {"target": obj("tube_5")})
+    spec = profile.bank.skill("look_at")
     assert spec is not None
-    step = plan((skill, args)).steps[0]
-    layers = layers_of(step, spec, profile.object(subject))
-    scene, span = Scene.of(world, profile), Span("bench.xei", 0, 1)
-    return Work(profile, scene, step, layers, ObjectRef(subject), span, "left", subject, (), "family")
+    return lambda: look_height(Task(profile, step, spec, scene, {}, "", ()), "target", spec.template[0])
 
 
-def grasps() -> list[Work]:
-    """One for each kind of object that hands take; those that stand alike cost alike."""
-    names = ("tube_1", "tube_7", "beaker_1", "bottle_1", "wipe_1", "vial_1", "weight_100g")
-    return [work_on("pick", {"object": obj(name), "arm": "left"}, name) for name in names]
-
-
-def times_ms(job: Callable[[], object], rounds: int) -> list[float]:
+def times_ms(jobs: Sequence[Job]) -> list[float]:
     found: list[float] = []
-    for _ in range(rounds):
+    for job in jobs:
         start = time.thread_time()
         job()
         found.append(1e3 * (time.thread_time() - start))
     return found
 
 
+def report(name: str, jobs: Sequence[Job], made: Planned | None = None) -> None:
+    """Two rows: the operation, and its baseline."""
+    print(row(name, times_ms(jobs)))
+    poses = [Pose() for _ in made.aims] if made else [Pose()]
+    if made and made.family and made.family.id == "family":
+        poses = [member.T_reference_tool for member in made.family.members]
+    reference = Pose.from_rpy((0.5, 0.1, 0.75), (0.0, 0.0, 0.3))
+    baseline = times_ms([lambda: [reference @ pose for pose in poses]] * len(jobs))
+    print(row(f"  baseline: {len(poses)} product{'s' if len(poses) > 1 else ''} of poses", baseline))
+
+
 def row(name: str, found: list[float]) -> str:
     ordered = sorted(found)
     p95 = ordered[min(len(ordered) - 1, int(0.95 * len(ordered)))]
-    return f"{name:<34} median {statistics.median(found):7.3f} ms   p95 {p95:7.3f} ms"
+    return f"{name:<36} median {statistics.median(found):7.3f} ms   p95 {p95:7.3f} ms"
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--small", action="store_true", help="1 round instead of 50")
-    rounds = 1 if parser.parse_args().small else 50
-    works = grasps()
-    made: list[Planned] = [GRASP.plan(work) for work in works]
-    for work, planned in zip(works, made, strict=True):
-        family = planned.family
-        assert family is not None
-        T_base_object = work.scene.T_base_object(work.object)
-
-        def baseline(members=family.members, pose=T_base_object) -> object:
-            return [pose @ member.T_reference_tool for member in members]
-
-        name = f"{work.object} ({len(family.members)} grasps)"
-        print(row(f"grasp {name}", times_ms(lambda work=work: GRASP.plan(work), rounds)))
-        print(row(f"  baseline: {len(family.members)} products of poses", times_ms(baseline, rounds)))
-    screen = {"screen": obj("incubator_screen"), "element": "start", "arm": "left"}
-    tap = work_on("tap", screen, "incubator_screen")
-    print(row("tap incubator_screen", times_ms(lambda: TAP.plan(tap), rounds)))
+    stands = scenes(1 if parser.parse_args().small else 50)
+    grasp = next(item.plan for item in OPERATIONS if item.name == "grasp")
+    for name in GRASPED:
+        made = grasp(grasp_of(name, stands[0]))
+        assert made.family is not None
+        jobs = [lambda scene=scene, name=name: grasp(grasp_of(name, scene)) for scene in stands]
+        report(f"grasp {name} ({len(made.family.members)} grasps)", jobs, made)
+    for case in cases():
+        where = case.subject.name if isinstance(case.subject, ObjectRef) else case.subject.object
+        kind = f" {case.subject.kind}" if isinstance(case.subject, PlaceRef) else ""
+        jobs = [case.job(scene) for scene in stands]
+        report(f"{case.operation} {case.about}, {where}{kind}", jobs, jobs[0]())
+    report("look tube_5", [look(scene) for scene in stands])
 
 
 if __name__ == "__main__":

@@ -91,6 +91,18 @@ class Pose(Record):
         px, py, pz = self.position_m
         return (x + px, y + py, z + pz)
 
+    def locate(self, point_m: Vec3) -> Vec3:
+        """The point, given in the parent frame, in this pose's frame: `inverse().apply(point_m)`."""
+        x, y, z, w = self.quaternion
+        (ax, ay, az), (bx, by, bz) = point_m, self.position_m
+        vx, vy, vz = ax - bx, ay - by, az - bz
+        tx, ty, tz = 2 * (z * vy - y * vz), 2 * (x * vz - z * vx), 2 * (y * vx - x * vy)
+        return (
+            vx + w * tx + z * ty - y * tz,
+            vy + w * ty + x * tz - z * tx,
+            vz + w * tz + y * tx - x * ty,
+        )
+
     def __matmul__(self, other: Pose) -> Pose:
         return Pose(self.apply(other.position_m), _unit(_multiply(self.quaternion, other.quaternion)))
 

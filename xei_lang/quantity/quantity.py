@@ -56,7 +56,7 @@ class Quantity:
     def magnitude(self) -> Fraction:
         """The number before the unit: 2 of `2 mL`."""
         scale = self._scale()
-        return (self.value - scale.offset) / scale.factor
+        return (self.value - scale.offset if scale.offset else self.value) / scale.factor
 
     def to(self, unit: str) -> Quantity:
         """The same quantity in another unit of `UNITS`; DimensionError if that measures something else."""

@@ -14,24 +14,29 @@ def format_magnitude(number: Fraction) -> str:
 
     Values past 10^30 are only said to be so: no quantity in a laboratory is that large.
     """
-    sign = "-" if number < 0 else ""
-    number = abs(number)
-    if number >= _LARGEST:
-        return f"{'less than -' if sign else 'more than '}10^30"
-    exact = _exact_places(number)
-    digits = _decimal(number, _rounded_places(number) if exact is None else exact)
-    return digits if digits == "0" else sign + digits
+    numerator, denominator = abs(number.numerator), number.denominator
+    if numerator >= _LARGEST * denominator:
+        return f"{'less than -' if number < 0 else 'more than '}10^30"
+    places = _exact_places(denominator)
+    if places is None:
+        magnitude = Fraction(numerator, denominator)
+        places = _rounded_places(magnitude)
+        scaled = round(magnitude * 10**places)
+    else:
+        scaled = numerator * 10**places // denominator
+    digits = _decimal(scaled, places)
+    return digits if digits == "0" or number.numerator >= 0 else f"-{digits}"
 
 
-def _exact_places(number: Fraction) -> int | None:
-    """How many decimals write the number exactly, or None where there are too many."""
-    denominator, twos, fives = number.denominator, 0, 0
-    while denominator % 2 == 0:
-        denominator, twos = denominator // 2, twos + 1
-    while denominator % 5 == 0:
-        denominator, fives = denominator // 5, fives + 1
+def _exact_places(denominator: int) -> int | None:
+    """How many decimals write a fraction with this denominator exactly, or None where there are too many."""
+    left, twos, fives = denominator, 0, 0
+    while left % 2 == 0:
+        left, twos = left // 2, twos + 1
+    while left % 5 == 0:
+        left, fives = left // 5, fives + 1
     places = max(twos, fives)
-    return places if denominator == 1 and places <= _EXACT_DIGITS else None
+    return places if left == 1 and places <= _EXACT_DIGITS else None
 
 
 def _rounded_places(number: Fraction) -> int:
@@ -41,8 +46,7 @@ def _rounded_places(number: Fraction) -> int:
     return places
 
 
-def _decimal(number: Fraction, places: int) -> str:
-    scaled = round(number * 10**places)
+def _decimal(scaled: int, places: int) -> str:
     if not places:
         return str(scaled)
     whole, part = divmod(scaled, 10**places)

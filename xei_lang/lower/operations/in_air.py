@@ -39,14 +39,26 @@ def room_in_air(work: Work, sides: tuple[Side, ...], radius_m: float) -> tuple[V
 
 def _highest(work: Work, x: float, y: float, radius_m: float) -> float:
     """The top of the highest object that reaches under a circle, in the base frame; 0 where there is none."""
+    T_world_base = work.scene.epoch.T_world_base
+    up_x, up_y, up_z = T_world_base.rotate((0.0, 0.0, 1.0))
+    qx, qy, qz = T_world_base.apply((x, y, 0.0))
+    objects = {item.name: item for item in work.profile.objects}
     top = 0.0
-    for name in work.scene.standing:
-        known = work.profile.object(name)
+    for name, standing in work.scene.standing.items():
+        known = objects.get(name)
         if known is None:
             continue
-        pose = work.scene.T_base_object(name)
-        beside = pose.inverse().apply((x, y, pose.position_m[2]))
-        away = math.hypot(*(max(0.0, abs(beside[k]) - known.size_m[k] / 2) for k in (0, 1)))
+        px, py, pz = standing.T_world_object.position_m
+        dx, dy, dz = qx - px, qy - py, qz - pz
+        over = dx * up_x + dy * up_y + dz * up_z
+        length, width, height = known.size_m
+        reach = radius_m + length + width + height
+        if dx * dx + dy * dy + dz * dz - over * over > reach * reach:
+            continue
+        # The circle's middle at the height of the object's origin.
+        point = (qx - over * up_x, qy - over * up_y, qz - over * up_z)
+        beside_x, beside_y, _ = standing.T_world_object.locate(point)
+        away = math.hypot(max(0.0, abs(beside_x) - length / 2), max(0.0, abs(beside_y) - width / 2))
         if away < radius_m:
-            top = max(top, pose.apply((0.0, 0.0, known.size_m[2]))[2])
+            top = max(top, work.scene.T_base_object(name).apply((0.0, 0.0, height))[2])
     return top

@@ -3,17 +3,54 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect
+from collections.abc import Iterable, Iterator
 
-from xei_lang.ir.geometry import Pose
+from xei_lang.ir.geometry import Pose, Vec3
 from xei_lang.ir.skill_plan import Side
 from xei_lang.lower.robot import shoulder_xy
 from xei_lang.lower.walk import Scene
 from xei_lang.profiles.model import LabObject, Profile
+from xei_lang.record import Record, record
 
 _GRID_M = 0.05
 _EDGE_M = 0.02
 _BESIDE_M = 0.05
 _AHEAD_M = 0.30
+_ALIKE_M = 1e-6
+
+_Found = tuple[float, float, float]
+"""A free point: how far it is from where the arm likes it, rounded, and its x and y on the surface;
+infinitely far for none.
+"""
+
+
+@record
+class _Obstacle(Record):
+    """What stands on or over a surface: a point `(x, y)` of the surface's top is at `origin + x along + y
+    across` in the obstacle's frame, and blocked where that is above `lowest_m`, under `highest_m` and nearer
+    than `beside_m` to the obstacle's outline of these half sizes.
+    """
+
+    origin: Vec3
+    along: Vec3
+    across: Vec3
+    half_x: float
+    half_y: float
+    lowest_m: float
+    highest_m: float
+    beside_m: float
+
+    def blocks(self, x: float, y: float) -> bool:
+        """Whether an object cannot stand at a point."""
+        (ox, oy, oz), (ax, ay, az), (bx, by, bz) = self.origin, self.along, self.across
+        beside_x = abs(ox + ax * x + bx * y) - self.half_x
+        if beside_x >= self.beside_m:
+            return False
+        beside_y = abs(oy + ay * x + by * y) - self.half_y
+        if beside_y >= self.beside_m or not self.lowest_m < oz + az * x + bz * y < self.highest_m:
+            return False
+        return math.hypot(max(0.0, beside_x), max(0.0, beside_y)) < self.beside_m
 
 
 def free_room(profile: Profile, scene: Scene, arm: Side, surface: str, known: LabObject) -> Pose | None:
@@ -21,23 +58,64 @@ def free_room(profile: Profile, scene: Scene, arm: Side, surface: str, known: La
     there is none.
 
     Points lie on a grid of 50 mm about the middle, the object's outline 20 mm inside the edge and 50 mm (a
-    finger and its room) from everything else; the easiest is nearest to 0.30 m ahead of the shoulder.
+    finger and its room) from everything else; the easiest is nearest to 0.30 m ahead of the shoulder, seen
+    from above, and of those that are so to a micrometre the one with the least x, then y.
     """
     host = profile.object(surface)
     if host is None:
         return None
     radius = math.hypot(known.size_m[0], known.size_m[1]) / 2
-    T_base_host = scene.T_base_object(surface)
-    shoulder = shoulder_xy(profile, arm)
-    best: tuple[float, Pose] | None = None
+    obstacles = list(_obstacles(profile, scene, host, known, radius + _BESIDE_M))
+    rows = _rows(scene.T_base_object(surface), host, radius, shoulder_xy(profile, arm))
+    best = (math.inf, 0.0, 0.0)
+    for least_m, x, way in rows:
+        if least_m > best[0] + _ALIKE_M:
+            break
+        for points in way:
+            best = min(best, _first_free(x, points, obstacles, best[0]))
+    return Pose((best[1], best[2], host.size_m[2])) if best[0] < math.inf else None
+
+
+def _first_free(
+    x: float, points: Iterable[tuple[float, float]], obstacles: list[_Obstacle], most_m: float
+) -> _Found:
+    """The first free one of a row's points, which come with growing distance, unless it is beyond
+    `most_m`.
+    """
+    last: _Obstacle | None = None
+    for y, away_m in points:
+        if away_m > most_m + _ALIKE_M:
+            break
+        # Points side by side are mostly blocked by the same thing.
+        if last is None or not last.blocks(x, y):
+            last = next((item for item in obstacles if item.blocks(x, y)), None)
+            if last is None:
+                return (round(away_m, 6), x, y)
+    return (math.inf, 0.0, 0.0)
+
+
+def _rows(
+    T_base_host: Pose, host: LabObject, radius: float, shoulder: tuple[float, float]
+) -> list[tuple[float, float, tuple[Iterable[tuple[float, float]], ...]]]:
+    """The rows of the grid, nearest first: the least distance of a row's line, its x, and its points `(y,
+    distance)` to both sides from where that is; seen from above.
+    """
+    (ax, ay, _), (bx, by, _), _ = T_base_host.axes()
+    ox, oy, _ = T_base_host.apply((0.0, 0.0, host.size_m[2]))
+    ox, oy = ox - shoulder[0] - _AHEAD_M, oy - shoulder[1]
+    ys = _steps(host.size_m[1] / 2 - radius)
+    rows: list[tuple[float, float, tuple[Iterable[tuple[float, float]], ...]]] = []
     for x in _steps(host.size_m[0] / 2 - radius):
-        for y in _steps(host.size_m[1] / 2 - radius):
-            point = Pose((x, y, host.size_m[2]))
-            bx, by, _ = T_base_host.apply(point.position_m)
-            away = round(math.hypot(bx - shoulder[0] - _AHEAD_M, by - shoulder[1]), 6)
-            if (best is None or away < best[0]) and _is_free(profile, scene, surface, point, known):
-                best = (away, point)
-    return best[1] if best else None
+        px, py = ox + ax * x, oy + ay * x
+        foot = -(px * bx + py * by) / (bx * bx + by * by)
+        least_m = math.hypot(px + bx * foot, py + by * foot)
+        middle = bisect(ys, foot)
+
+        def away(side: Iterable[float], px: float = px, py: float = py) -> Iterable[tuple[float, float]]:
+            return ((y, math.hypot(px + bx * y, py + by * y)) for y in side)
+
+        rows.append((least_m, x, (away(reversed(ys[:middle])), away(ys[middle:]))))
+    return sorted(rows, key=lambda row: row[:2])
 
 
 def _steps(room_m: float) -> tuple[float, ...]:
@@ -50,17 +128,30 @@ def _steps(room_m: float) -> tuple[float, ...]:
     return tuple(k * _GRID_M for k in range(-count, count + 1))
 
 
-def _is_free(profile: Profile, scene: Scene, surface: str, point: Pose, known: LabObject) -> bool:
-    radius = math.hypot(known.size_m[0], known.size_m[1]) / 2
-    T_world_point = scene.standing[surface].T_world_object @ point
+def _obstacles(
+    profile: Profile, scene: Scene, host: LabObject, known: LabObject, beside_m: float
+) -> Iterator[_Obstacle]:
+    """What may be in the way somewhere on the surface; what is too far from all of it is left out."""
+    T_world_host = scene.standing[host.name].T_world_object
+    objects = {item.name: item for item in profile.objects}
+    half_x, half_y, top = host.size_m[0] / 2, host.size_m[1] / 2, host.size_m[2]
     for name, other in scene.standing.items():
-        thing = profile.object(name)
-        if thing is None or name in (surface, known.name):
+        thing = objects.get(name)
+        if thing is None or name in (host.name, known.name):
             continue
-        x, y, z = other.T_world_object.inverse().apply(T_world_point.position_m)
-        if not -known.size_m[2] < z < thing.size_m[2] - 1e-3:
+        length, width, height = thing.size_m
+        x, y, _ = T_world_host.locate(other.T_world_object.position_m)
+        reach = length + width + height + known.size_m[2] + 2 * beside_m
+        if abs(x) > half_x + reach or abs(y) > half_y + reach:
             continue
-        beside = math.hypot(max(0.0, abs(x) - thing.size_m[0] / 2), max(0.0, abs(y) - thing.size_m[1] / 2))
-        if beside < radius + _BESIDE_M:
-            return False
-    return True
+        T_thing_host = other.T_world_object.inverse() @ T_world_host
+        yield _Obstacle(
+            T_thing_host.apply((0.0, 0.0, top)),
+            T_thing_host.rotate((1.0, 0.0, 0.0)),
+            T_thing_host.rotate((0.0, 1.0, 0.0)),
+            length / 2,
+            width / 2,
+            -known.size_m[2],
+            height - 1e-3,
+            beside_m,
+        )

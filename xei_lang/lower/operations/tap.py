@@ -7,9 +7,11 @@ from the face's lower left corner, as one sees it.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from itertools import product
 
 from xei_lang.diagnostics import Label, did_you_mean
-from xei_lang.ir.geometry import Pose, Vec3
+from xei_lang.ir.geometry import Pose, Quaternion, Vec3
 from xei_lang.ir.goals import Family, ToolPose, ToolTarget
 from xei_lang.ir.skill_plan import ObjectRef
 from xei_lang.lower.hand import hand_of, tool_axes
@@ -123,19 +125,26 @@ def _family(work: Work, screen: LabObject) -> Family:
     the point.
     """
     tip = hand_of(work.profile).fingertip_m
-    members: list[ToolPose] = []
-    for elevation in _ELEVATIONS_DEG:
-        for azimuth in _AZIMUTHS_DEG:
-            heading = (math.cos(math.radians(azimuth)), math.sin(math.radians(azimuth)), 0.0)
-            for turned in (False, True):
-                x, y, z = tool_axes(heading, math.radians(elevation), turned)
-                origin = (-tip * z[0], -tip * z[1], -tip * z[2])
-                name = f"{elevation:g} deg down, azimuth {azimuth:g} deg{', rolled' if turned else ''}"
-                cost = round(0.2 * (elevation + abs(azimuth)) / 100.0, 6)
-                members.append(ToolPose(name, Pose.from_axes(origin, x, y, z), cost))
-    ordered = tuple(sorted(members, key=lambda member: (member.cost, member.name)))
-    return Family(work.family_id, screen.name, ordered)
+    members = [
+        ToolPose(name, Pose((-tip * x, -tip * y, -tip * z), quaternion), cost)
+        for cost, name, (x, y, z), quaternion in _WAYS
+    ]
+    return Family(work.family_id, screen.name, tuple(members))
 
+
+def _ways() -> Iterator[tuple[float, str, Vec3, Quaternion]]:
+    """What each way to point costs and is called, the tool's approach and its orientation, in the frame of
+    the point.
+    """
+    for elevation, azimuth, turned in product(_ELEVATIONS_DEG, _AZIMUTHS_DEG, (False, True)):
+        heading = (math.cos(math.radians(azimuth)), math.sin(math.radians(azimuth)), 0.0)
+        x, y, z = tool_axes(heading, math.radians(elevation), turned)
+        name = f"{elevation:g} deg down, azimuth {azimuth:g} deg{', rolled' if turned else ''}"
+        cost = round(0.2 * (elevation + abs(azimuth)) / 100.0, 6)
+        yield cost, name, z, Pose.from_axes((0.0, 0.0, 0.0), x, y, z).quaternion
+
+
+_WAYS = sorted(_ways())
 
 TAP = Operation("tap", ("tap_above", "tap"), ("tap_standoff",), plan_tap)
 SWIPE = Operation(

@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 
 _STEPS = 60
-_SLICES = 400
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,17 +24,16 @@ class Vessel:
         """The most that stays in it at a tilt from upright, in [0, pi/2]: what lies under the level plane
         through its lip.
 
-        At each distance u from the axis, towards the lip positive, the liquid stands `height - (radius - u)
-        tan(tilt)` high, where that is above the bottom; integrated over the circle's chords.
+        At a distance u from the axis, towards the lip positive, the liquid stands `(u - dry) tan(tilt)` high
+        over the bottom from `dry` on, times the chord of the circle at u. Integrated in closed form: where
+        the bottom is covered it is a cylinder cut askew, else a cylindrical hoof.
         """
         r, slope = self.radius_m, math.tan(min(tilt_rad, math.pi / 2 - 1e-9))
-        total = 0.0
-        for k in range(_SLICES):
-            phi = math.pi * (k + 0.5) / _SLICES
-            u = r * math.cos(phi)
-            level = max(0.0, self.height_m - (r - u) * slope)
-            total += 2 * (r * math.sin(phi)) ** 2 * level * math.pi / _SLICES
-        return total
+        if self.height_m >= 2 * r * slope:
+            return math.pi * r**2 * (self.height_m - r * slope)
+        dry = 1.0 - self.height_m / (r * slope)
+        chord = math.sqrt(1.0 - dry * dry)
+        return slope * r**3 * (2 / 3 * chord**3 - dry * (math.acos(dry) - dry * chord))
 
     def tilt_rad(self, left_m3: float) -> float:
         """The tilt at which just `left_m3` stay in it; 0 where it is brimful, 90 degrees for nothing."""

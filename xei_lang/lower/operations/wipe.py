@@ -115,14 +115,17 @@ def _refuse_outside(work: Work, seat: Seat, host: LabObject, region: tuple[float
             f"{region[0] * 1000:g} x {region[1] * 1000:g} mm about `{seat.text}` pass its edge",
             (Label(host.span, "its shape is stated here"),),
         )
-    T_host_world = work.scene.standing[host.name].T_world_object.inverse()
+    T_world_host = work.scene.standing[host.name].T_world_object
+    objects = {item.name: item for item in work.profile.objects}
     for name, other in work.scene.standing.items():
-        thing = work.profile.object(name)
+        thing = objects.get(name)
         if thing is None or name == host.name:
             continue
-        T_host_other = T_host_world @ other.T_world_object
-        ox, oy, oz = T_host_other.position_m
-        reach = _reach(T_host_other, thing)
+        ox, oy, oz = T_world_host.locate(other.T_world_object.position_m)
+        most = (thing.size_m[0] + thing.size_m[1]) / 2 + _BESIDE_M
+        if abs(ox - x) >= half[0] + most or abs(oy - y) >= half[1] + most:
+            continue
+        reach = _reach(T_world_host.inverse() @ other.T_world_object, thing)
         beside = abs(ox - x) >= half[0] + reach[0] or abs(oy - y) >= half[1] + reach[1]
         if -thing.size_m[2] < oz - z < _HEIGHT_M and not beside:
             since = (other.since,) if other.since else ()
