@@ -13,6 +13,7 @@ from PIL import Image
 
 from tests.cli.xei import PROFILES, xei
 from tests.world.map.ranging import recorded
+from xei_lang.profiles.load import load_profile
 
 
 @pytest.fixture
@@ -86,6 +87,7 @@ def test_files_of_another_map_are_told_with_their_hash(lab: Path) -> None:
     [
         (("nowhere.jsonl", "-o", "out"), 2, "does not exist"),
         (("drive.jsonl",), 2, "--output"),
+        (("drive.jsonl", "--write", "-o", "out"), 2, "a folder of the profile"),
         (("drive.jsonl", "-o", "out", "--resolution", "0"), 2, "--resolution"),
         (("drive.jsonl", "-o", "out", "--name", "../lab"), 2, "without folders"),
         (("profiles", "-o", "out"), 1, "rosbag2"),
@@ -103,3 +105,46 @@ def test_what_cannot_be_built_from_is_told(
     assert (ran.code, ran.out) == (code, ""), ran.err
     assert says in ran.err
     assert not (lab / "out").exists()
+
+
+def section_of(lab: Path) -> dict[str, object]:
+    file = lab / "profiles" / "openarm_bench" / "calibration_profile.yaml"
+    return yaml.safe_load(file.read_text(encoding="utf-8"))["map"]
+
+
+def test_the_profile_takes_the_map_and_no_other_is_lost(lab: Path) -> None:
+    file = lab / "profiles" / "openarm_bench" / "calibration_profile.yaml"
+    comments = [line for line in file.read_text(encoding="utf-8").splitlines() if line.lstrip()[:1] == "#"]
+    ran = xei("map", "build", "drive.jsonl", "--write", cwd=lab)
+    assert (ran.code, ran.out) == (0, ""), ran.err
+    first = section_of(lab)
+    assert (first["yaml"], first["image"], first["frame"]) == ("map/lab.yaml", "map/lab.pgm", "map")
+    assert "history" not in first, "there was no map before"
+    # Stations and drives are held against it at once: of the recorded room, a table's legs are in the way.
+    assert "station bench_b: at 0.00, -2.20 m, -90 deg; below the base free" in ran.err
+    assert ("warning[XEI0677]" in ran.err) == (
+        "below the base free" not in ran.err.split("bench_a: ")[1][:60]
+    )
+    loaded, said = load_profile(file.parent, None)
+    assert loaded is not None, said
+    text = file.read_text(encoding="utf-8")
+    assert [line for line in text.splitlines() if line.lstrip()[:1] == "#"] == comments
+    assert xei("map", "build", "drive.jsonl", "--write", "--quiet", cwd=lab).code == 0
+    assert file.read_text(encoding="utf-8") == text
+
+    (lab / "again.jsonl").write_text(recorded(200, noise_m=0.02), encoding="utf-8")
+    kept = (file.parent / "map" / "lab.pgm").read_bytes()
+    refused = xei("map", "build", "again.jsonl", "--write", cwd=lab)
+    assert refused.code == 1
+    assert "error[XEI0668]" in refused.err and "--name" in refused.err
+    assert (section_of(lab), (file.parent / "map" / "lab.pgm").read_bytes()) == (first, kept)
+    ran = xei("map", "build", "again.jsonl", "--write", "--name", "lab_2", cwd=lab)
+    assert ran.code == 0, ran.err
+    assert "`map/lab.yaml` is in its history" in ran.err
+    second = section_of(lab)
+    assert second["yaml"] == "map/lab_2.yaml" and second["sha256"] != first["sha256"]
+    assert second["history"] == [first]
+    assert load_profile(file.parent, None)[0] is not None
+    # The files of another map under the names of this one are told at once.
+    (file.parent / "map" / "lab_2.pgm").write_bytes(kept)
+    assert "XEI0666" in xei("map", "show", cwd=lab).err

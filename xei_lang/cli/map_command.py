@@ -10,15 +10,15 @@ import click
 
 from xei_lang.cli.exit_codes import INPUT_HAS_ERRORS
 from xei_lang.cli.lab import open_lab
+from xei_lang.cli.map_files import Target, deliver
 from xei_lang.cli.options import wants_color
 from xei_lang.cli.report import exit_code, show
-from xei_lang.cli.write_file import write_bytes, write_text
+from xei_lang.cli.write_file import write_bytes
 from xei_lang.diagnostics import Diagnostic, Diagnostics
 from xei_lang.profiles.model import Profile
 from xei_lang.syntax.reading import decode_source
 
 if TYPE_CHECKING:
-    from xei_lang.world.map.grid import OccupancyGrid
     from xei_lang.world.map.recording import Scans
 
 MAX_RECORDING_BYTES = 500_000_000
@@ -28,14 +28,17 @@ MAX_RECORDING_BYTES = 500_000_000
 def command() -> None:
     """Build the map that the base drives by, and look at it.
 
-    Example: xei map build drive.jsonl -o profiles/openarm_bench/map
+    Example: xei map build drive.jsonl --write
     """
 
 
 @command.command("build")
 @click.argument("recording", type=click.Path(path_type=Path), metavar="RECORDING")
 @click.option(
-    "-o", "--output", type=click.Path(path_type=Path), required=True, help="The folder for the map's files."
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path),
+    help="The folder for the map's files; with --write the profile's `map` if not given.",
 )
 @click.option("--name", default="lab", show_default=True, help="What the files are called.")
 @click.option(
@@ -45,15 +48,17 @@ def command() -> None:
     show_default=True,
     help="Metres a cell.",
 )
+@click.option("--write", is_flag=True, help="Name the map in the profile; one it named goes to the history.")
 @click.option("--profile", metavar="NAME|FOLDER", help="The profile; needed where there are several.")
 @click.option("--quiet", is_flag=True, help="Print the lines and errors only.")
 @click.option("--color", type=click.Choice(["auto", "always", "never"]), default="auto", show_default=True)
 def build(
     *,
     recording: Path,
-    output: Path,
+    output: Path | None,
     name: str,
     resolution: float,
+    write: bool,
     profile: str | None,
     quiet: bool,
     color: str,
@@ -61,37 +66,40 @@ def build(
     """Build a map from recorded lidar scans and the poses that they were taken at.
 
     Writes a map of ROS map_server (YAML and PGM), and prints the lines of `calibration_profile.yaml` that
-    name it. A line of the recording has the form of `xei schema scans`; a folder is read as a rosbag2 with
-    the lidar's scans and tf.
+    name it. Another map of the same name is not replaced. A line of the recording has the form of `xei schema
+    scans`; a folder is read as a rosbag2 with the lidar's scans and tf.
 
-    Example: xei map build drive.jsonl -o profiles/openarm_bench/map
+    Example: xei map build drive.jsonl --write
     """
     colored = wants_color(color)
     if Path(name).name != name or name.startswith("."):
         raise click.BadParameter("a name without folders", param_hint="--name")
+    if output is None and not write:
+        raise click.UsageError("say where the map goes: -o, --output FOLDER, or --write")
     lab = open_lab(profile, colored)
-    said = _build(recording, lab, output, name, resolution, quiet=quiet, colored=colored)
-    sys.exit(said)
+    target = Target(lab, output or Path(lab.folder) / "map", name, write, quiet, colored)
+    if write and not target.is_inside:
+        raise click.BadParameter("with --write a folder of the profile", param_hint="--output")
+    sys.exit(_build(recording, target, resolution))
 
 
-def _build(
-    path: Path, lab: Profile, output: Path, name: str, resolution_m: float, *, quiet: bool, colored: bool
-) -> int:
+def _build(path: Path, target: Target, resolution_m: float) -> int:
     from xei_lang.world.map.build_map import build_map
 
+    lab, colored = target.lab, target.colored
     scans = _bag(path, lab, colored) if path.is_dir() else _lines(path, lab, colored)
     if isinstance(scans, int):
         return scans
-    if not quiet:
+    if not target.quiet:
         click.echo(f"{len(scans.poses)} scans of `{scans.lidar}`, of {len(scans.angles_rad)} rays", err=True)
     grid = build_map(scans, resolution_m)
     if isinstance(grid, Diagnostic):
         return _show((grid,), colored)
-    if not quiet:
+    if not target.quiet:
         from xei_lang.world.map.picture import size_text
 
         click.echo(size_text(grid), err=True)
-    return _show(_deliver(grid, scans, lab, output, name), colored)
+    return _show(deliver(grid, scans.recorded_on, target), colored)
 
 
 def _bag(path: Path, lab: Profile, colored: bool) -> Scans | int:
@@ -118,22 +126,6 @@ def _lines(path: Path, lab: Profile, colored: bool) -> Scans | int:
         show(said, {source.file: source}, colored)
         return exit_code(said)
     return scans
-
-
-def _deliver(grid: OccupancyGrid, scans: Scans, lab: Profile, output: Path, name: str) -> Diagnostics:
-    from xei_lang.profiles.map_files import map_sha256
-    from xei_lang.world.map.write_map import image_bytes, profile_lines, yaml_text
-
-    yaml, image = yaml_text(grid, f"{name}.pgm"), image_bytes(grid)
-    said = write_bytes(output / f"{name}.pgm", image) or write_text(output / f"{name}.yaml", yaml)
-    if not said:
-        inside = output.resolve().is_relative_to(Path(lab.folder).resolve())
-        below = output.resolve().relative_to(Path(lab.folder).resolve()).as_posix() if inside else "map"
-        sha256 = map_sha256(yaml.encode(), image)
-        frame = lab.calibration.map_frame
-        folder = "" if below == "." else below
-        click.echo(profile_lines(frame, folder, name, sha256, scans.recorded_on), nl=False)
-    return said
 
 
 @command.command("show")
