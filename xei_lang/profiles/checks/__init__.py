@@ -13,6 +13,7 @@ from xei_lang.profiles.checks.names import check_names
 from xei_lang.profiles.checks.overlap import check_overlap
 from xei_lang.profiles.checks.owners import check_owners
 from xei_lang.profiles.checks.priors import check_priors
+from xei_lang.profiles.checks.quantities import check_quantities
 from xei_lang.profiles.checks.rules import check_rules
 from xei_lang.profiles.checks.skills import check_skills
 from xei_lang.profiles.checks.template_order import check_template_order
@@ -27,6 +28,7 @@ def check_profile(profile: Profile, trees: Trees) -> Diagnostics:
     found = (
         *check_names(profile, trees),
         *check_skills(profile, trees),
+        *check_quantities(profile, trees),
         *check_owners(profile, trees),
         *check_rules(profile),
         *check_contradictions(profile),

@@ -28,6 +28,7 @@ _OF_ARMS = ("arm", "gripper")
 def check_owners(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
     """Owners that need an arm where there is none, and goals whose part is not among the owners."""
     bank = profile.bank
+    yield from _arms(profile, trees)
     prismatic = any(joint.kind == "prismatic" for joint in profile.robot.joints)
     for skill in bank.skills:
         needs_arm = skill.owner in _OF_ARMS and not bank.arms
@@ -50,3 +51,22 @@ def check_owners(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
                     label=f"`{part}` is not among the robot's `owners`",
                     help=(f"add `{part}` to `owners` if the robot has it, or leave the line out",),
                 )
+
+
+def _arms(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
+    """Arms without a tool on the robot, or named twice."""
+    arms, carried = profile.bank.arms, dict(profile.calibration.robot_frames)
+    for index, arm in enumerate(arms):
+        span = trees.development.span_of("robot", "arms", index)
+        if arm in arms[:index]:
+            yield Diagnostic("XEI0621", f"`{arm}` names two arms", span, label="named again here")
+        elif f"{arm}_tool" not in carried:
+            yield Diagnostic(
+                "XEI0645",
+                f"nothing says where the tool of the {arm} arm is",
+                span,
+                label=f"`robot_frames` has no `{arm}_tool`",
+                help=(
+                    f"add `{arm}_tool` to `robot_frames` in the calibration, or leave the arm out",
+                ),
+            )

@@ -172,6 +172,13 @@ def _phrases(skill: SkillSpec, trees: Trees) -> Iterator[Diagnostic]:
             if name not in names:
                 span = trees.of_skill(skill.name, "phrases", index)
                 yield _no_argument(skill, name, names, span)
+        if re.search(r"[{}]", re.sub(r"\{[^{}]*\}", "", phrase)):
+            yield Diagnostic(
+                "XEI0623",
+                f"`{phrase}` has a brace without its partner",
+                trees.of_skill(skill.name, "phrases", index),
+                label="expected `{` and `}` around an argument's name",
+            )
 
 
 def _fields(skill: SkillSpec, step: TemplateStep) -> Iterator[Diagnostic]:

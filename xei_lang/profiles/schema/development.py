@@ -51,7 +51,7 @@ class DurationRange:
         ends = value.split("..") if isinstance(value, str) else []
         if len(ends) == 2:
             lower, upper = (read_quantity(end.strip(), "4 s") for end in ends)
-            if lower.dimension == upper.dimension == TIME and lower <= upper:
+            if lower.dimension == upper.dimension == TIME and 0 <= lower.value <= upper.value:
                 return lower.si, upper.si
         way_out = "write the shorter time first, such as `4 s .. 30 s`"
         raise quantity_error(f"`{value}` is not a range of durations", way_out)
