@@ -14,7 +14,7 @@ from xei_lang.check.plan_file.check import check_plan, read_plan_text
 from xei_lang.cli.worlds import observed_in
 from xei_lang.diagnostics import CATALOGUE, Diagnostics, Source, has_errors
 from xei_lang.diagnostics.render.full import render_full
-from xei_lang.doctor import deployment_blockers
+from xei_lang.doctor import deployment_blockers, deployment_warnings
 from xei_lang.pipeline import ALL, FRONT, Request, compile_request
 from xei_lang.profiles.load import load_profile
 
@@ -24,7 +24,7 @@ RUN = [page for page in PAGES if page.is_run]
 TO_GOALS = ALL[: [step.adds for step in ALL].index("graph") + 1]
 NOT_REACHED = {
     "XEI0101", "XEI0102", "XEI0107", "XEI0109", "XEI0125", "XEI0204", "XEI0321",
-    "XEI0662", "XEI0667",
+    "XEI0662", "XEI0667", "XEI0668",
     "XEI0680", "XEI0681", "XEI0682", "XEI0683", "XEI0684", "XEI0685", "XEI0686", "XEI0687", "XEI0688",
     "XEI0690", "XEI0691", "XEI0692", "XEI0693", "XEI0694",
     "XEI0695", "XEI0696", "XEI0697", "XEI0698", "XEI0699",
@@ -79,10 +79,11 @@ def _only_codes(found: set[str]) -> set[str]:
 
 
 def _blockers(profile: Path) -> set[str]:
-    """What blocks a profile: each code with the item that it is about."""
+    """What blocks a profile: each code with the item that it is about; and what `xei doctor` warns of."""
     loaded, said = load_profile(profile, None)
     assert loaded is not None, said
-    return {f"{blocker.code} {blocker.item}" for blocker in deployment_blockers(loaded)}
+    warned = {f"{warning.code} {warning.message}" for warning in deployment_warnings(loaded)}
+    return {f"{blocker.code} {blocker.item}" for blocker in deployment_blockers(loaded)} | warned
 
 
 def _codes(page: Page, section: Section, folder: Path, monkeypatch: pytest.MonkeyPatch) -> set[str]:
