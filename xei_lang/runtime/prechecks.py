@@ -116,8 +116,9 @@ def _leaves(now: Moment, giver: str, taker: Side) -> bool:
 
 def _attached_is_held(now: Moment) -> Failure | None:
     attached = [item.object for item in now.timed.attached]
+    carried = now.state.carried()
     for name in attached:
-        if name not in now.state.holding.values():
+        if name not in carried:
             return _fail(
                 "XEI0911",
                 f"goal `{now.goal.id}` was planned with `{name}` in the hand, and no hand holds it",
@@ -128,6 +129,11 @@ def _attached_is_held(now: Moment) -> Failure | None:
         return _fail(
             "XEI0911", f"goal `{now.goal.id}` was planned without `{held}`, which the hand holds", now
         )
+    for rider, name in carried.items():
+        if name in attached and rider not in attached:
+            return _fail(
+                "XEI0911", f"goal `{now.goal.id}` was planned without `{rider}`, which rides on `{name}`", now
+            )
     return None
 
 

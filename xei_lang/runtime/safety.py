@@ -70,12 +70,13 @@ class Gate:
             held[goal.action.arm] = goal.action.object
         heaviest, allowed = 0.0, self.profile.calibration.payload_kg
         for arm, name in held.items():
-            found = self.world.find(name)
-            mass = found.mass_kg if found else 0.0
+            riders = state.riders(name)
+            mass = sum(found.mass_kg for one in (name, *riders) if (found := self.world.find(one)))
             if mass > allowed:
+                more = f" with {', '.join(f'`{rider}`' for rider in riders)}" if riders else ""
                 return _fail(
                     "XEI0923",
-                    f"`{name}` weighs {mass:g} kg and the {arm} hand may carry {allowed:g} kg",
+                    f"`{name}`{more} weighs {mass:g} kg and the {arm} hand may carry {allowed:g} kg",
                     goal,
                 )
             heaviest = max(heaviest, mass)
