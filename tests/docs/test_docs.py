@@ -43,7 +43,7 @@ _NAME = re.compile(r"^protocol (\w+)", re.MULTILINE)
 _STATED = re.compile(r"# (protocols/\S+)$", re.MULTILINE)
 _WHOLE = re.compile(r"^(xei \d|import|protocol|procedure)\b", re.MULTILINE)
 _COMMAND = re.compile(r"^(\.venv/bin/)?xei\s")
-_BLOCKER = re.compile(r", blocks .*\[XEI\d{4}\]$", re.MULTILINE)
+_BLOCKER = re.compile(r", before .*\[XEI\d{4}\]$", re.MULTILINE)
 _NUMBER = re.compile(r"\d+(\.\d+)?")
 _MEASURED = ("motion ", "verify ", "bundle ", "dry-run: ")
 
