@@ -22,6 +22,7 @@ from xei_lang.syntax.reading import read_source
 
 if TYPE_CHECKING:
     from xei_lang.runtime.answers import Answers
+    from xei_lang.runtime.perception import Perception
 
 _ELSEWHERE = ("choose another place with --trace",)
 
@@ -49,6 +50,18 @@ _ELSEWHERE = ("choose another place with --trace",)
     show_default=True,
     help="Fraction of the planned speed.",
 )
+@click.option(
+    "--pose-service",
+    "pose_service",
+    metavar="URL",
+    help="Who is asked where things are when a goal perceives.",
+)
+@click.option(
+    "--perceived",
+    type=click.Path(path_type=Path),
+    multiple=True,
+    help="What is seen at each goal that perceives, in order: a scene file, or a picture for the service.",
+)
 @grounding
 @compiling
 def command(
@@ -58,6 +71,8 @@ def command(
     trace_path: Path | None,
     answers_path: Path | None,
     speed: float,
+    pose_service: str | None,
+    perceived: tuple[Path, ...],
     world: WorldOptions,
     options: Options,
 ) -> None:  # fmt: skip
@@ -73,7 +88,17 @@ def command(
     if code:
         sys.exit(code)
     made = session.compile(ALL, lambda _result: None)
-    sys.exit(_run(session, made, executor, trace_path, given, speed))
+    from xei_lang.cli.perceived import perception_of
+
+    assert made.timed is not None
+    assert made.profile is not None
+    perception, problems = perception_of(
+        made.timed, made.profile, perceived, pose_service, world.token_file, color=options.color
+    )
+    code = session.show(problems)
+    if code:
+        sys.exit(code)
+    sys.exit(_run(session, made, executor, trace_path, given, speed, perception))
 
 
 def _run(
@@ -83,6 +108,7 @@ def _run(
     trace_path: Path | None,
     answers: Answers,
     speed: float,
+    perception: Perception | None,
 ) -> int:
     from xei_lang.cli.deliver import Compiled
     from xei_lang.runtime.run import run
@@ -90,7 +116,7 @@ def _run(
     inputs = Compiled.of(session.source, made).run_inputs()
     try:
         with trace_path.open("w", encoding="utf-8") if trace_path is not None else nullcontext() as trace:
-            result = run(inputs, executor, answers, _recorder(trace), speed)
+            result = run(inputs, executor, answers, _recorder(trace), speed, perception)
     except OSError as error:
         if trace_path is None:
             raise

@@ -33,9 +33,9 @@ def observed_by(
     if asked.picture is not None and not service:
         note = f"`--picture` is for a pose service, and `--world` names `{asked.source}`"
         return (), (_no_source(asked.source, note),)
-    if service and "@" in asked.source.split("/")[2]:
-        note = "a user and a password in an address would stand in every plan that is made with it"
-        return (), (_no_source(asked.source.rpartition("@")[2], note, _TOKEN),)
+    secret = password_in(asked.source) if service else ()
+    if secret:
+        return (), secret
     return _seen_by_service(asked, profile, color) if service else observed_in(asked.source, profile)
 
 
@@ -64,14 +64,9 @@ def _seen_by_service(
         note = "a pose service finds objects in a picture, and there is no `--picture`"
         return (), (_no_source(url, note),)
     optional("xei_lang.world.perception.observe", color)
-    request, problems = _read_request(asked.picture, url)
+    request, problems = read_request(asked.picture, url, profile)
     if request is None:
         return (), problems
-    from xei_lang.world.perception.unfit import unfit
-
-    wrong = unfit(profile, request)
-    if wrong is not None:
-        return (), (_no_source(url, f"`{asked.picture}` is no picture of this lab: {wrong}"),)
     from xei_lang.cli.pose_service import read_token
     from xei_lang.world.perception.client import PoseClient
     from xei_lang.world.perception.observe import observe
@@ -87,11 +82,20 @@ def _seen_by_service(
     return (found.observations,), found.diagnostics
 
 
-def _read_request(picture: Path, url: str) -> tuple[PoseRequest | None, Diagnostics]:
-    """A request of the form `pose_request`, from its file."""
+def password_in(url: str) -> Diagnostics:
+    """Whether an address holds what must not be kept in plans and traces."""
+    if "@" not in url.partition("://")[2].partition("/")[0]:
+        return ()
+    note = "a user and a password in an address would stand in every plan that is made with it"
+    return (_no_source(url.rpartition("@")[2], note, _TOKEN),)
+
+
+def read_request(picture: Path, url: str, profile: Profile) -> tuple[PoseRequest | None, Diagnostics]:
+    """A request of the form `pose_request` about this lab, from its file."""
     from pydantic import ValidationError
 
     from xei_lang.world.perception.contract import PoseRequestModel
+    from xei_lang.world.perception.unfit import unfit
     from xei_lang.world.perception.wire import request_of
 
     text, problems = read_source(picture, str(picture))
@@ -106,6 +110,9 @@ def _read_request(picture: Path, url: str) -> tuple[PoseRequest | None, Diagnost
     if isinstance(request, str):
         note = f"`{picture}` is not of the form `pose_request`: {request}"
         return None, (_no_source(url, note),)
+    wrong = unfit(profile, request)
+    if wrong is not None:
+        return None, (_no_source(url, f"`{picture}` is no picture of this lab: {wrong}"),)
     return request, ()
 
 

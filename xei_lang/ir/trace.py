@@ -21,12 +21,18 @@ FailedStage = Literal[
 
 @dataclass(frozen=True, slots=True)
 class RuntimeFeedback:
-    """What an executor says of one goal once it has tried it."""
+    """What an executor says of one goal once it has tried it.
+
+    Where a representation is to blame, it is named (`object pose`, `frame`, `calibration`), and `help` says
+    what to do about it.
+    """
 
     goal_id: str
     status: Literal["succeeded", "failed", "cancelled"]
     message: str = ""
     failed_stage: FailedStage | None = None
+    representation: str = ""
+    help: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from xei_lang.diagnostics import Diagnostics
-from xei_lang.ir.goals import Confirm, MotionGoal
+from xei_lang.ir.goals import Confirm, MotionGoal, Perceive
 from xei_lang.ir.timed import TimedGoal
 from xei_lang.ir.trace import FailedStage, RuntimeFeedback, TraceEvent
 from xei_lang.runtime import consistency, setup
 from xei_lang.runtime.answers import Answers
 from xei_lang.runtime.executors import Executor, find_executor
 from xei_lang.runtime.failure import Failure, diagnostic_json, failure
+from xei_lang.runtime.grounding import NOT_GROUNDED, ground_again
 from xei_lang.runtime.handoffs import TIME_TOLERANCE_S, Handoffs, check_grounding, check_scene
+from xei_lang.runtime.perception import Perception
 from xei_lang.runtime.prechecks import Moment, first_failure
 from xei_lang.runtime.record import Recorder
 from xei_lang.runtime.safety import Gate
@@ -52,13 +54,15 @@ def run(
     answers: Answers,
     emit: Callable[[TraceEvent], None],
     speed: float = 1.0,
+    perception: Perception | None = None,
 ) -> RunResult:
     """Carry the plan out and hand every event to `emit` as it happens; the last one is always of stage `end`.
 
     `executor` is a name of `EXECUTORS`, or one that is ready. `speed`, in (0, 1], stretches the plan's clock.
+    `perception` is asked at each goal that perceives; without one the trace says that nobody was.
     A keyboard interrupt stops the executor, ends the trace as cancelled, and goes on to the caller.
     """
-    course = _Course(given, answers, Recorder(emit), speed)
+    course = _Course(given, answers, Recorder(emit), speed, perception)
     try:
         stop = course.prepare(executor) or course.carry_out()
     except KeyboardInterrupt:
@@ -75,9 +79,11 @@ class _Course:
     answers: Answers
     record: Recorder
     speed: float
+    perception: Perception | None = None
     executor: Executor | None = None
     running: list[TimedGoal] = field(default_factory=list[TimedGoal])
     done: int = 0
+    looked: dict[str, Mapping[str, Any]] = field(default_factory=dict[str, Mapping[str, Any]])
 
     def prepare(self, wanted: str | Executor) -> _Stop | None:
         """Record and check the handoffs, in the order in which they were made."""
@@ -156,7 +162,21 @@ class _Course:
             self.record.add("execution", refused, goal.step_id, goal.id)
             return _Stop(seen, goal.id, goal.step_id)
         self.record.add("execution", setup.execution(timed, executor.name, seen), goal.step_id, goal.id)
-        return self._judge(goal, executor.execute(goal, timed))
+        stop = self._judge(goal, executor.execute(goal, timed))
+        if stop is None and isinstance(goal.action, Perceive):
+            stop = self._perceive(goal, state)
+        return stop
+
+    def _perceive(self, goal: MotionGoal, state: RunState) -> _Stop | None:
+        if self.perception is None:
+            self.looked[goal.id] = NOT_GROUNDED
+            return None
+        found = ground_again(self.given, state, goal, self.perception)
+        self.looked[goal.id] = found.record
+        if found.failure is None or found.feedback is None:
+            return None
+        self._feedback(goal, found.feedback)
+        return _Stop(found.failure, goal.id, goal.step_id)
 
     def _confirm(self, goal: MotionGoal, question: Confirm) -> tuple[Failure | None, bool]:
         answer = self.answers.answer(goal.step_id, question.text)
@@ -189,7 +209,8 @@ class _Course:
         return state
 
     def _feedback(self, goal: MotionGoal, feedback: RuntimeFeedback, state: RunState | None = None) -> None:
-        self.record.add("feedback", setup.feedback(feedback, state), goal.step_id, goal.id)
+        said = setup.feedback(feedback, state, self.looked.get(goal.id))
+        self.record.add("feedback", said, goal.step_id, goal.id)
 
     def interrupt(self) -> None:
         """Stop everything and close the trace."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from xei_lang.ir.forms import world_json
@@ -96,13 +97,23 @@ def execution(timed: TimedGoal, executor: str, seen: Passed) -> dict[str, Any]:
     }
 
 
-def feedback(said: RuntimeFeedback, state: RunState | None) -> dict[str, Any]:
-    """What an executor said of a goal, and the state after it where the goal succeeded."""
+def feedback(
+    said: RuntimeFeedback, state: RunState | None, looked: Mapping[str, Any] | None = None
+) -> dict[str, Any]:
+    """What an executor said of a goal, the state after it where the goal succeeded, and of a goal that
+    perceives what was seen.
+    """
     value: dict[str, Any] = {"status": said.status}
     if said.message:
         value["message"] = said.message
     if said.failed_stage:
         value["failed_stage"] = said.failed_stage
+    if said.representation:
+        value["representation"] = said.representation
+    if said.help:
+        value["help"] = said.help
+    if looked is not None:
+        value["perception"] = dict(looked)
     if state:
         value["state"] = state.to_json()
     return value

@@ -123,7 +123,8 @@ def test_a_camera_in_the_room_is_calibrated_by_a_hand_at_a_station(lab: Profile)
     document = recorded_below(lab, 12)
     recording, said = read_recording(Source("x.json", json.dumps(document)), lab)
     assert recording is not None, said
-    assert (recording.station, recording.frame.parent) == ("bench_a", "world")
+    assert recording.frame.parent == "world"
+    assert recording.standing is not None and recording.standing.robot.station == "bench_a"
     found = solve_hand_eye(recording.samples, recording.camera.fx)
     assert isinstance(found, HandEye), found
     truth = CEILING @ Pose.from_rpy((0.013, -0.021, 0.008), (0.01, -0.02, 0.03))
@@ -134,7 +135,10 @@ def test_a_camera_in_the_room_is_calibrated_by_a_hand_at_a_station(lab: Profile)
 
 @pytest.mark.parametrize(
     ("changes", "message"),
-    [({"station": None}, "does not ride on the robot"), ({"station": "bench_c"}, "`bench_c` is no station")],
+    [
+        ({"station": None}, "nothing says where the robot stood"),
+        ({"station": "bench_c"}, "`bench_c` is no station"),
+    ],
 )
 def test_where_the_base_stood_must_be_said(lab: Profile, changes: dict[str, object], message: str) -> None:
     document = {**recorded_below(lab, 1), **changes}
@@ -148,4 +152,4 @@ def test_a_station_is_nothing_to_a_camera_that_the_robot_carries() -> None:
     said, _ = read_recording(Source("x.json", json.dumps({**recorded(1, 6), "station": "bench_b"})), bench())
     assert plain is not None and said is not None
     assert [one.A.tolist() for one in plain.samples] == [one.A.tolist() for one in said.samples]
-    assert said.station == ""
+    assert said.standing is None

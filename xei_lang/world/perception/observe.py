@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
-from xei_lang.diagnostics import Diagnostics
 from xei_lang.ir.forms.canonical import Json, line
 from xei_lang.ir.geometry import Pose
 from xei_lang.ir.world import World
@@ -28,24 +26,12 @@ from xei_lang.world.perception.pose_request import (
     PoseResponse,
 )
 from xei_lang.world.perception.registry import Registry, registry_of
+from xei_lang.world.perception.seen import Seen
 from xei_lang.world.perception.service_fault import PoseRefused, ServiceFault
 from xei_lang.world.sources import Observation, Observations
 from xei_lang.world.transforms import lookup
 
 BASE = "robot_base"
-
-
-@dataclass(frozen=True, slots=True)
-class Seen:
-    """What came of asking for objects: those that are believed, and those that are not, with reasons."""
-
-    observations: Observations
-    refused: tuple[PoseRefused, ...]
-
-    @property
-    def diagnostics(self) -> Diagnostics:
-        """The refusals as they are shown."""
-        return tuple(item.diagnostic() for item in self.refused)
 
 
 def ask_for(
@@ -104,7 +90,7 @@ def judge(
     if isinstance(depth, str):
         return ServiceFault("no_picture", f"the depth image of the request is of no use: {depth}",
                             "record depth as grey PNG of 16 bits, at the size of the intrinsics")  # fmt: skip
-    tree = world or _at_start(profile)
+    tree, camera = world or _at_start(profile), camera_at(profile, picture.camera_frame)
     T_base_output = lookup(tree, BASE, picture.output_frame).T_target_source
     refused: list[PoseRefused] = []
     kept: list[Observation] = []
@@ -129,12 +115,13 @@ def judge(
         if isinstance(found, PoseRefused):
             refused.append(found)
         else:
-            kept.append(_observation(item, found, answer, camera_at(profile, picture.camera_frame)))
+            kept.append(_observation(item, found, answer, camera))
     refused += [_missing(name) for name in asked]
     kept.sort(key=lambda item: item.name)
     source = f"pose_service {url}"
     looked_for = tuple(sorted(query.object_id for query in request.queries))
-    return Seen(Observations(source, tuple(kept), _digest(kept), answer.stamp_ns, looked_for), tuple(refused))
+    said = Observations(source, tuple(kept), _digest(kept), answer.stamp_ns, looked_for)
+    return Seen(said, tuple(refused), camera)
 
 
 def _at_start(profile: Profile) -> World:

@@ -52,7 +52,9 @@ class ServiceFault:
 
     def feedback(self, goal_id: str) -> RuntimeFeedback:
         """The fault as what becomes of a goal that asked for a pose."""
-        return RuntimeFeedback(goal_id, "failed", self.message, self.representation)
+        return RuntimeFeedback(
+            goal_id, "failed", self.message, self.representation, "pose service", self.help
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,4 +76,4 @@ class PoseRefused:
 
     def feedback(self, goal_id: str) -> RuntimeFeedback:
         """The refusal as what becomes of a goal that asked for this pose."""
-        return RuntimeFeedback(goal_id, "failed", self.message, self.representation)
+        return RuntimeFeedback(goal_id, "failed", self.message, self.representation, "object pose", self.help)
