@@ -161,11 +161,12 @@ def _measure(
 
 def _computed(file: Named, one: Measured, entry: MeshShapeModel | CloudShapeModel) -> tuple[Shape, str]:
     from xei_lang.profiles.assets.fit import fit
-    from xei_lang.profiles.assets.told import kind_text
+    from xei_lang.profiles.assets.told import WORDS, kind_text
 
     shape = fit(one.extent, entry.as_)
     thing = file.what.replace("_", " ")
-    return shape, f"computed from {thing} {file.path} in {one.units}, as {kind_text(shape)} around it"
+    of = f"{thing} {file.path} in {WORDS[one.units]}"
+    return shape, f"computed from {of}, as {kind_text(shape)} around it"
 
 
 def _asset(file: Named, one: Measured, reader: AssetReader) -> Asset:

@@ -129,7 +129,7 @@ def test_the_world_says_what_a_size_was_computed_from(tmp_path):
     profile, _ = loaded(lab_with(tmp_path, "    shape: {mesh: {file: assets/cup.stl, units: mm}}"))
     world, _ = ground(profile)
     said = dict(world.find("cup").provenance)
-    source = "usage_profile, computed from mesh assets/cup.stl in mm, as a cylinder around it"
+    source = "usage_profile, computed from mesh assets/cup.stl in millimetres, as a cylinder around it"
     assert said["size"] == said["geometry"] == source
     assert said["roles"] == "usage_profile"
     assert dict(world.find("tube_a").provenance)["size"] == "usage_profile"

@@ -63,7 +63,7 @@ def plan(work: Work) -> Planned:
     T_base_object = work.scene.T_base_object(known.name)
     seen = _Seen(hand, T_base_object, reach_direction(work.profile, work.arm, T_base_object))
     closing = _closing(work, known, seen)
-    widths = _widths(work, closing, hand)
+    widths = _widths(work, known, closing, hand)
     sunk_m = _sunk(work, standing)
     floor_m, host = _floor(work, known, standing, sunk_m)
     request = _request(work, known, closing, floor_m, seen)
@@ -139,7 +139,7 @@ def _closing(work: Work, known: LabObject, seen: _Seen) -> Closing:
             f"`{known.name}` is too wide for the gripper",
             work.span,
             f"{_mm(least)} wide where it is narrowest, the jaws open {_mm(hand.max_gap_m)} at most",
-            (Label(known.span, "its shape is stated here"),),
+            (Label(known.span, f"its shape is {known.computed_from or 'stated here'}"),),
             notes=(f"the jaws must pass an object with {_mm(MIN_CLEARANCE_M)} to spare on each side",),
         )
     (reach_x, reach_y), rotate = seen.reach, seen.T_base_object.rotate
@@ -152,7 +152,7 @@ def _closing(work: Work, known: LabObject, seen: _Seen) -> Closing:
     return min(fitting, key=across) if len(fitting) > 1 else fitting[0]
 
 
-def _widths(work: Work, closing: Closing, hand: Hand) -> _Widths:
+def _widths(work: Work, known: LabObject, closing: Closing, hand: Hand) -> _Widths:
     room_m = (hand.max_gap_m - closing.width_m) / 2
     default = work.layers.skill.get("jaw_clearance")
     wanted_m = default.si("Length") if default else _SKILL_CLEARANCE_M
@@ -164,9 +164,9 @@ def _widths(work: Work, closing: Closing, hand: Hand) -> _Widths:
     clearance = work.layers.written("jaw_clearance") or (
         default if default and wanted_m <= room_m else narrow
     )
-    closed = work.layers.merge(
-        "grasp_width", computed_length("grasp_width", closing.width_m, "width of the object between the jaws")
-    )
+    origin = f", {known.computed_from}" if known.computed_from else ""
+    width = f"width of the object between the jaws{origin}"
+    closed = work.layers.merge("grasp_width", computed_length("grasp_width", closing.width_m, width))
     assert closed is not None
     rule = f"{_mm(closing.width_m)} and {clearance.text} on each side"
     wide_m = closing.width_m + 2 * clearance.si("Length")

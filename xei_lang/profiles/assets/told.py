@@ -10,7 +10,7 @@ from xei_lang.ir.geometry import Box, Cylinder, Pose, Shape, Vec3
 from xei_lang.profiles.assets.fit import Extent
 from xei_lang.profiles.assets.units import LEAST_M, MOST_M, SCALES
 
-_WORDS = {"m": "metres", "mm": "millimetres", "cm": "centimetres", "in": "inches"}
+WORDS = {"m": "metres", "mm": "millimetres", "cm": "centimetres", "in": "inches"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +82,7 @@ def no_units(named: Named, longest: float, guess: str) -> Diagnostic:
     help_ = "state its unit: `m`, `mm`, `cm` or `in`"
     if guess:
         size = text_of(longest * SCALES[guess])
-        help_ = f"written in {_WORDS[guess]}? then it is {size} at its longest; write `units: {guess}`"
+        help_ = f"written in {WORDS[guess]}? then it is {size} at its longest; write `units: {guess}`"
     return Diagnostic(
         "XEI0633",
         f"nothing says in which unit `{named.path}` is written",
@@ -95,9 +95,7 @@ def no_units(named: Named, longest: float, guess: str) -> Diagnostic:
 
 def assumed_units(named: Named, guess: str, stated: Span) -> Diagnostic:
     """XEI0634: the unit is not stated, and the object's shape tells which it must be."""
-    said = (
-        f"taken to be in {_WORDS[guess]}, as its size then agrees" if guess else "no unit makes it so large"
-    )
+    said = f"taken to be in {WORDS[guess]}, as its size then agrees" if guess else "no unit makes it so large"
     mend = f"write `{named.what}: {{file: {named.path}, units: {guess}}}`"
     return Diagnostic(
         "XEI0634",
@@ -125,10 +123,10 @@ def wrong_units(
         labels = (Label(stated[0], f"{text_of(stated[1])} at its longest"),)
     mend = "give the unit that it is written in, or scale it"
     if guess:
-        mend = f"written in {_WORDS[guess]}? write `units: {guess}`"
+        mend = f"written in {WORDS[guess]}? write `units: {guess}`"
     return Diagnostic(
         "XEI0633",
-        f"{named.thing} would be {text_of(longest_m)} {way} in {_WORDS[named.units]}",
+        f"{named.thing} would be {text_of(longest_m)} {way} in {WORDS[named.units]}",
         named.units_place,
         label=label,
         labels=labels,
