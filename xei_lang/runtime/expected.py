@@ -61,20 +61,16 @@ def holder(world: World, name: str) -> str:
 def _stands(given: Handoffs, state: RunState) -> Iterator[WorldObject]:
     world, carried = given.world, state.carried()
     for item in world.objects:
-        carrier = state.riding.get(item.name, "")
-        moved = carrier if carrier in state.placed else item.name
         if item.name in carried:
             continue
-        if moved not in state.placed:
+        if item.name not in state.placed:
             yield item
             continue
-        if moved == carrier and item.fastened_to != carrier:
-            # It was put on what went elsewhere since: how it sits there is not kept.
-            continue
-        epoch, T_base_moved = state.placed[moved]
-        T_moved_item = world.T_world_object(moved).inverse() @ world.T_world_object(item.name)
-        T_world_item = _epoch(given, epoch).T_world_base @ T_base_moved @ T_moved_item
-        yield replace(item, T_frame_object=T_world_item, frame_id="world", place="")
+        # What rides on another object is placed with it, time and again.
+        epoch, T_base_item = state.placed[item.name]
+        T_world_item = _epoch(given, epoch).T_world_base @ T_base_item
+        carrier = state.riding.get(item.name, "")
+        yield replace(item, T_frame_object=T_world_item, frame_id="world", place="", fastened_to=carrier)
 
 
 def _epoch(given: Handoffs, index: int) -> Epoch:
