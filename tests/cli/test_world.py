@@ -113,3 +113,31 @@ def test_what_is_not_in_the_scene_keeps_its_prior(lab: Path):
     ran = compile_(lab, "monday.yaml")
     assert ran.code == 0, ran.err
     assert ran.out != compile_(lab, "profile").out
+
+
+def test_sources_are_asked_in_their_order_and_a_later_one_overrides_field_by_field(lab: Path):
+    unsure, open_ = "rack_1: {confidence: 0.7}", "tube_1: {states: {cap: open}}"
+    (lab / "tuesday.yaml").write_text(scene(f"{unsure}\n{open_}"), encoding="utf-8")
+
+    def rack(*files: str):
+        worlds = [word for file in files for word in ("--world", file)]
+        ran = xei("world", "show", "--format", "json", *worlds, cwd=lab)
+        assert ran.code == 0, ran.err
+        world = json.loads(ran.out)
+        (found,) = [item for item in world["objects"] if item["name"] == "rack_1"]
+        return world["sources"], found["confidence"], found["provenance"]
+
+    sources, confidence, said_by = rack("profile", "monday.yaml", "tuesday.yaml")
+    assert sources[2:] == ["scene_file monday.yaml", "scene_file tuesday.yaml"]
+    assert (confidence, said_by["confidence"]) == (0.7, "scene_file tuesday.yaml")
+    assert said_by["pose"] == "scene_file monday.yaml"
+    _, confidence, said_by = rack("tuesday.yaml", "monday.yaml")
+    assert (confidence, said_by["confidence"]) == (0.95, "scene_file monday.yaml")
+
+
+def test_two_sources_of_one_name_are_refused(lab: Path):
+    (lab / "old").mkdir()
+    (lab / "old" / "monday.yaml").write_text(scene(MOVED), encoding="utf-8")
+    for second in ("monday.yaml", "old/monday.yaml"):
+        ran = compile_(lab, "monday.yaml", "--world", second)
+        assert (ran.code, "error[XEI0663]" in ran.err) == (1, True), ran.err

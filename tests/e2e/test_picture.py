@@ -12,6 +12,7 @@ import pytest
 from tests.cli.xei import PROFILES, xei
 from tests.world.perception.serving import process
 from tests.world.perception.views import bench
+from tests.world.sources.scenes import scene
 from xei_lang.ir.forms.canonical import dumps
 from xei_lang.ir.geometry import Pose
 from xei_lang.profiles.model import Profile
@@ -83,6 +84,25 @@ def test_a_password_in_an_address_is_neither_used_nor_shown(folder: Path) -> Non
     ran = xei("world", "show", "--world", url, "--picture", "picture.json", cwd=folder)
     assert (ran.code, "error[XEI0663]" in ran.err, "secret" in ran.err) == (1, True, False)
     assert "`--token-file FILE`" in ran.err
+
+
+def test_a_scene_file_and_a_service_are_asked_one_after_the_other(lab: Profile, folder: Path) -> None:
+    (folder / "before.yaml").write_text(
+        scene(
+            "rack_2: {frame: table, position: [130 mm, 150 mm, 0 mm], confidence: 0.6}\n"
+            "beaker_1: {absent: true}"
+        ),
+        encoding="utf-8",
+    )
+    with process(folder, "--backend", "apriltag") as url:
+        shown = xei("world", "show", "--format", "json", "--world", "before.yaml", "--world", url,
+                    "--picture", "picture.json", cwd=folder)  # fmt: skip
+    assert shown.code == 0, shown.err
+    world = json.loads(shown.out)
+    assert world["sources"][2:] == ["scene_file before.yaml", f"pose_service {url}"]
+    (rack,) = [item for item in world["objects"] if item["name"] == "rack_2"]
+    assert rack["provenance"]["pose"] == f"pose_service {url}"
+    assert "beaker_1" not in {item["name"] for item in world["objects"]}
 
 
 def test_a_service_that_is_gone_is_not_replaced_by_priors(folder: Path) -> None:

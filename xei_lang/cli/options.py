@@ -76,11 +76,11 @@ _SHARED = (
 
 @dataclass(frozen=True, slots=True)
 class WorldOptions:
-    """Who is asked where things are: `source` as `--world` names it; for a pose service the picture that it
-    looks at, and the file with its token.
+    """Who is asked where things are, besides the profile: `sources` as `--world` names them, each over those
+    before it; for a pose service the picture that it looks at, and the file with its token.
     """
 
-    source: str
+    sources: tuple[str, ...]
     picture: Path | None
     token_file: Path | None
 
@@ -89,8 +89,11 @@ def grounding(command: Callable[..., None]) -> Callable[..., None]:
     """Give a command the options of those that ground the world; it receives them as one, `world`."""
 
     @functools.wraps(command)
-    def with_world(world: str, picture: Path | None, token_file: Path | None, **others: Any) -> None:
-        command(world=WorldOptions(world, picture, token_file), **others)
+    def with_world(
+        world: tuple[str, ...], picture: Path | None, token_file: Path | None, **others: Any
+    ) -> None:
+        sources = tuple(name for name in world if name != PROFILE_WORLD)
+        command(world=WorldOptions(sources, picture, token_file), **others)
 
     wrapped: Callable[..., None] = with_world
     for option in _OF_THE_WORLD:
@@ -106,8 +109,9 @@ _OF_THE_WORLD = (
         "--picture", type=click.Path(path_type=Path), help="What a pose service is asked: a `pose_request`."
     ),
     click.option(
-        "--world", metavar="SOURCE", default=PROFILE_WORLD, show_default=True,
-        help="Who says where things are: `profile`, or over it a scene file or a pose service (http://...).",
+        "--world", metavar="SOURCE", multiple=True, default=(PROFILE_WORLD,), show_default=True,
+        help="Who says where things are: `profile`, or over it a scene file or a pose service (http://...). "
+        "May be repeated: each over those before it.",
     ),
 )  # fmt: skip
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from xei_lang.cli.exit_codes import INPUT_HAS_ERRORS
-from xei_lang.cli.options import PROFILE_WORLD, Options, WorldOptions
+from xei_lang.cli.options import Options, WorldOptions
 from xei_lang.cli.progress import Bar
 from xei_lang.cli.report import exit_code, show
 from xei_lang.diagnostics import Diagnostics, Source, Sources
@@ -56,10 +56,10 @@ class Session:
         return outcome.made
 
     def grounded_by(self, world: WorldOptions) -> Session:
-        """The same, with what the source that `--world` names says of the world. Where the protocol's profile
+        """The same, with what the sources that `--world` names say of the world. Where the protocol's profile
         cannot be had, the passes will tell; exits where the source cannot be believed.
         """
-        if world.source == PROFILE_WORLD and world.picture is None:
+        if not world.sources and world.picture is None:
             return self
         from xei_lang.cli.worlds import observed_by
 

@@ -25,18 +25,39 @@ _TOKEN = "give a token in a file: `--token-file FILE`"
 def observed_by(
     asked: WorldOptions, profile: Profile, color: bool
 ) -> tuple[tuple[Observations, ...], Diagnostics]:
-    """What the source that `--world` names says of a profile's objects; with errors, nothing to be used.
+    """What the sources that `--world` names say of a profile's objects, in their order; with errors, nothing
+    to be used.
 
     Exits where a pose service is to be asked and the libraries for that are not installed.
     """
-    service = asked.source.lower().startswith(("http://", "https://"))
-    if asked.picture is not None and not service:
-        note = f"`--picture` is for a pose service, and `--world` names `{asked.source}`"
-        return (), (_no_source(asked.source, note),)
-    secret = password_in(asked.source) if service else ()
+    services = [named for named in asked.sources if _is_service(named)]
+    if asked.picture is not None and not services:
+        named = asked.sources[-1] if asked.sources else PROFILE_WORLD
+        note = f"`--picture` is for a pose service, and `--world` names `{named}`"
+        return (), (_no_source(named, note),)
+    called = [named if _is_service(named) else Path(named).name for named in asked.sources]
+    twice = next((named for k, named in enumerate(called) if named in called[:k]), None)
+    if twice is not None:
+        note = "two sources have that name, and nobody could tell afterwards which of them said what"
+        return (), (_no_source(twice, note, "name each source once, and each file differently"),)
+    secret = tuple(said for named in services for said in password_in(named))
     if secret:
         return (), secret
-    return _seen_by_service(asked, profile, color) if service else observed_in(asked.source, profile)
+    seen: list[Observations] = []
+    said: list[Diagnostic] = []
+    for named in asked.sources:
+        found, more = (
+            _seen_by_service(named, asked, profile, color)
+            if _is_service(named)
+            else observed_in(named, profile)
+        )
+        seen.extend(found)
+        said.extend(more)
+    return tuple(seen), tuple(said)
+
+
+def _is_service(named: str) -> bool:
+    return named.lower().startswith(("http://", "https://"))
 
 
 def observed_in(named: str, profile: Profile) -> tuple[tuple[Observations, ...], Diagnostics]:
@@ -56,10 +77,9 @@ def observed_in(named: str, profile: Profile) -> tuple[tuple[Observations, ...],
 
 
 def _seen_by_service(
-    asked: WorldOptions, profile: Profile, color: bool
+    url: str, asked: WorldOptions, profile: Profile, color: bool
 ) -> tuple[tuple[Observations, ...], Diagnostics]:
     """What a pose service finds in a recorded picture, which is taken to be of now, as a scene file is."""
-    url = asked.source
     if asked.picture is None:
         note = "a pose service finds objects in a picture, and there is no `--picture`"
         return (), (_no_source(url, note),)
