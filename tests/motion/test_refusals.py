@@ -138,7 +138,11 @@ def test_a_place_where_the_object_itself_does_not_fit_is_refused_before_any_gras
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     tried: list[int] = []
-    monkeypatch.setattr(sound, "first_touch", lambda *_: tried.append(1))
+
+    def looked_at(*_args: Any) -> None:
+        tried.append(1)
+
+    monkeypatch.setattr(sound, "first_touch", looked_at)
     timed, problems = planned(SET_DOWN, *blocked_place())
     assert timed is None
     assert tried == []
@@ -159,7 +163,10 @@ def test_a_search_in_which_every_candidate_falls_ends_after_a_count(monkeypatch:
         return whole(*args)
 
     # As if what stood in the way were a thing that each grasp meets by itself.
-    monkeypatch.setattr(group, "object_touch", lambda *_: None)
+    def fits(*_args: Any) -> None:
+        return None
+
+    monkeypatch.setattr(group, "object_touch", fits)
     monkeypatch.setattr(sound, "first_touch", counted)
     monkeypatch.setattr(group, "MAX_STRIKES", 40)
     timed, problems = planned(SET_DOWN, *blocked_place())

@@ -11,26 +11,22 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from xei_lang.diagnostics import Diagnostic, Diagnostics
-from xei_lang.ir.goals import MotionGoal, MotionGoalGraph
+from xei_lang.ir.goals import MotionGoalGraph
 from xei_lang.ir.skill_plan import Side
 from xei_lang.ir.timed import TimedGoal, TimedPlan
 from xei_lang.ir.world import World
 from xei_lang.motion.collision import collision_scene
 from xei_lang.motion.kinematics import Solver, arm_solver
-from xei_lang.motion.paths.free import PathBlocked
 from xei_lang.motion.robot import Robot, load_robot
-from xei_lang.motion.sequence.ahead import look_ahead
-from xei_lang.motion.sequence.assemble import RATE_HZ, Untimed, time_motion
-from xei_lang.motion.sequence.blame import blame_group, blame_timing, refuse
-from xei_lang.motion.sequence.blame_carry import blame_carry, refuse_tilted
-from xei_lang.motion.sequence.blame_way import blame_path
+from xei_lang.motion.sequence.assemble import RATE_HZ
+from xei_lang.motion.sequence.blame import blame_group, refuse
+from xei_lang.motion.sequence.blame_carry import blame_carry
 from xei_lang.motion.sequence.context import Context, planning_limits
-from xei_lang.motion.sequence.fixed import plan_fixed
-from xei_lang.motion.sequence.group import plan_group
+from xei_lang.motion.sequence.course import Course
+from xei_lang.motion.sequence.group import BlockedTransit, Failure, Unplaced
 from xei_lang.motion.sequence.margins import margins
 from xei_lang.motion.sequence.motions import Motion
-from xei_lang.motion.sequence.runs import awaited
-from xei_lang.motion.sequence.sections import Group, Part, split
+from xei_lang.motion.sequence.sections import split
 from xei_lang.motion.sequence.snapshot import Snapshot, first_snapshot
 from xei_lang.profiles.model import Profile
 
@@ -79,31 +75,33 @@ def attempt(
     seed: int,
     progress: Progress | None = None,
 ) -> TimedPlan | Refused:
-    """`plan_motion`, with the goal at which it failed."""
+    """`plan_motion`, with the goal at which it failed.
+
+    Where a hand finds no grasp on what the other one holds out, planning goes back once to where that one
+    took it, and chooses the two grasps together.
+    """
     context = _context(world, profile, description, seed)
     parts = split(graph)
     start = first_snapshot(context.robot, world)
     problem = refuse(context, graph)
     if problem is not None:
         return _refused(graph, problem, 0)
-    now, timed = start, list[TimedGoal]()
-    loads: list[Motion] = []
-    for index, part in enumerate(parts):
-        motions = _plan_part(context, part, parts[index + 1 :], now)
-        if isinstance(motions, Diagnostic):
-            return _refused(graph, motions, len(timed))
-        for planned in motions:
-            start_s = timed[-1].end_s if timed else 0.0
-            motion = awaited(planned, loads, timed, start_s)
-            goal = time_motion(context, motion, start_s)
-            if isinstance(goal, Untimed):
-                return _refused(graph, blame_timing(context, goal), len(timed))
-            timed.append(goal)
-            loads.append(motion)
-        now = motions[-1].after
+    course = Course(context, parts, start)
+    while course.index < len(parts):
+        failed = course.advance()
+        if isinstance(failed, (Unplaced, BlockedTransit)) and course.go_back(failed):
+            continue
+        if failed is not None:
+            reason, planned = course.told(failed)
+            said = reason if isinstance(reason, Diagnostic) else _blame(context, reason)
+            return _refused(graph, said, planned)
         if progress is not None:
-            progress(len(timed), len(graph.goals))
-    return _plan(context, start, tuple(loads), tuple(timed))
+            progress(len(course.timed), len(graph.goals))
+    return _plan(context, start, tuple(course.motions), tuple(course.timed))
+
+
+def _blame(context: Context, failure: Failure) -> Diagnostic:
+    return blame_carry(context, failure) or blame_group(context, failure)
 
 
 def _refused(graph: MotionGoalGraph, diagnostic: Diagnostic, planned: int) -> Refused:
@@ -118,22 +116,6 @@ def _context(world: World, profile: Profile, description: RobotDescription, seed
     solvers: dict[Side, Solver] = {side: arm_solver(robot, side) for side in robot.arms}
     bare = collision_scene(robot, padding_m=profile.calibration.clearance_m)
     return Context(robot, bare, solvers, planning_limits(robot, profile), world, profile, seed)
-
-
-def _plan_part(
-    context: Context, part: Part, later: tuple[Part, ...], now: Snapshot
-) -> tuple[Motion, ...] | Diagnostic:
-    if isinstance(part, MotionGoal):
-        motion = plan_fixed(context, part, now)
-        return blame_path(context, part, motion, now) if isinstance(motion, PathBlocked) else (motion,)
-    assert isinstance(part, Group)
-    tilted = refuse_tilted(context, part, now)
-    if tilted is not None:
-        return tilted
-    found = plan_group(context, part, now, look_ahead(context, part, later, now))
-    if isinstance(found, tuple):
-        return found
-    return blame_carry(context, found) or blame_group(context, found)
 
 
 def _plan(

@@ -68,8 +68,8 @@ def constrained_connect(
     space: FreeSpace, project: Project, q_start: Array, q_goal: Array, seed: int, max_checks: int
 ) -> Array | None:
     """Waypoints (m, n) at most `STEP_S` apart, each keeping the constraint, with free straight lines between
-    them; None once `max_checks` edges have been tried, or `PROJECTIONS_PER_EDGE` times as many steps. Both ends
-    must keep the constraint. Shortening a way that was found may take half as many again.
+    them; None once `max_checks` edges have been tried, or `PROJECTIONS_PER_EDGE` times as many steps. Both
+    ends must keep the constraint. Shortening a way that was found may take half as many again.
     """
     random, budget = np.random.default_rng(seed), _Budget(max_checks)
     here, there, forward = _Tree(q_start), _Tree(q_goal), True

@@ -6,26 +6,54 @@ from dataclasses import replace
 
 import numpy as np
 
-from xei_lang.ir.goals import Detach, JointTarget, MotionGoal, MoveTo, NavToPose
+from xei_lang.ir.goals import Detach, Grip, JointTarget, MotionGoal, MoveTo, NavToPose
 from xei_lang.ir.skill_plan import Side
 from xei_lang.motion.sequence.choose import Array
 from xei_lang.motion.sequence.context import Context
 from xei_lang.motion.sequence.enact import left
 from xei_lang.motion.sequence.group import Ahead
+from xei_lang.motion.sequence.meeting import Encounter, takes_over
 from xei_lang.motion.sequence.parting import parting_of
 from xei_lang.motion.sequence.rehearse import Rehearsal, rehearse_group
 from xei_lang.motion.sequence.sections import Group, Part
 from xei_lang.motion.sequence.snapshot import Snapshot
 
 
-def look_ahead(context: Context, group: Group, later: tuple[Part, ...], start: Snapshot) -> Ahead:
-    """The outlook of a group that begins at `start`, with the parts that follow it in order."""
+def look_ahead(
+    context: Context, group: Group, later: tuple[Part, ...], start: Snapshot, meeting: bool = False
+) -> Ahead:
+    """The outlook of a group that begins at `start`, with the parts that follow it in order. With `meeting`,
+    how it holds an object out is chosen together with how the other hand takes it.
+    """
     after = rehearse_group(context, group, start)[-1].after
     return Ahead(
         _next_configuration(context, group.arm, later),
         _release(context, group.arm, later, after),
         parting_of(later, after),
+        _encounter(context, group.arm, later, after) if meeting else None,
     )
+
+
+def _encounter(context: Context, giver: Side, later: tuple[Part, ...], now: Snapshot) -> Encounter | None:
+    """The taking of what a hand holds by the other one, if that comes next; the state before it with the jaws
+    as they are by then.
+    """
+    for index, part in enumerate(later):
+        held = now.held.get(giver)
+        if held is None:
+            return None
+        if isinstance(part, MotionGoal):
+            now = _passed(context, part, now)
+            if isinstance(part.action, Grip):
+                now = now.moved(context.robot.with_opening(now.q, part.action.arm, part.action.opening_m))
+        elif takes_over(part, giver, held.object):
+            rest = later[index + 1 :]
+            after = rehearse_group(context, part, now)[-1].after
+            kept = _release(context, part.arm, rest, after)
+            return Encounter(giver, part, now, parting_of(rest, after), kept)
+        else:
+            now = rehearse_group(context, part, now)[-1].after
+    return None
 
 
 def _next_configuration(context: Context, arm: Side, later: tuple[Part, ...]) -> Array | None:

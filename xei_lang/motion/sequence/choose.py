@@ -42,14 +42,17 @@ class Speeds:
 
     def of_distance(self, distance: Array) -> Array:
         """Lower bound (...) of the rest-to-rest time over distances (..., n) of the joints."""
-        joints = range(distance.shape[-1])
-        return np.stack([self._of_joint(joint, distance[..., joint]) for joint in joints]).max(axis=0)
+        slowest = np.zeros(distance.shape[:-1])
+        for joint in range(distance.shape[-1]):
+            np.maximum(slowest, self._of_joint(joint, distance[..., joint]), out=slowest)
+        return slowest
 
     def _of_joint(self, joint: int, distance: Array) -> Array:
         velocity, acceleration = self.velocity[joint], self.acceleration[joint]
         short = 2.0 * np.sqrt(distance / acceleration)
         long = distance / velocity + velocity / acceleration
-        return np.where(distance < velocity**2 / acceleration, short, long)
+        fastest: Array = np.where(distance < velocity**2 / acceleration, short, long)
+        return fastest
 
 
 @dataclass(frozen=True, slots=True)

@@ -70,15 +70,16 @@ def _between(start: Pose, end: Pose) -> Iterator[Pose]:
 
 def _touched(context: Context, rehearsal: Rehearsal, moment: Moment, T_base_object: Pose) -> Pair | None:
     snapshot = moment.snapshot
-    name = snapshot.held[rehearsal.chain.arm].object
-    may = {other for pair in moment.goal.allowed_contacts if name in pair for other in pair}
-    own = context.world.find(name)
-    for other in snapshot.standing:
-        item = context.world.find(other)
-        if own is None or item is None or other in may:
-            continue
-        if _meet(context, own.geometry, T_base_object, item.geometry, snapshot.T_base_object(other)):
-            return name, other
+    held = snapshot.held[rehearsal.chain.arm].object
+    for name, T_object_own in ((held, Pose()), *snapshot.riders(held)):
+        may = {other for pair in moment.goal.allowed_contacts if name in pair for other in pair}
+        own, T_base_own = context.world.find(name), T_base_object @ T_object_own
+        for other in snapshot.standing:
+            item = context.world.find(other)
+            if own is None or item is None or other in may:
+                continue
+            if _meet(context, own.geometry, T_base_own, item.geometry, snapshot.T_base_object(other)):
+                return name, other
     return None
 
 

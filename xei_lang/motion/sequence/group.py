@@ -17,21 +17,22 @@ from xei_lang.ir.goals import MotionGoal
 from xei_lang.motion.paths.free import PathBlocked
 from xei_lang.motion.sequence.choose import Bools, Runs
 from xei_lang.motion.sequence.context import Context
-from xei_lang.motion.sequence.enact import as_held, carry_out
+from xei_lang.motion.sequence.enact import as_held
 from xei_lang.motion.sequence.fits import object_touch
-from xei_lang.motion.sequence.fixed import plan_fixed
 from xei_lang.motion.sequence.layers import LEAN, THOROUGH, Effort, Layer, enumerate_layer, slide_heights
+from xei_lang.motion.sequence.meeting import Encounter, Meeting, shown
 from xei_lang.motion.sequence.motions import Motion
 from xei_lang.motion.sequence.onward import goes_on, onward_layer
 from xei_lang.motion.sequence.parting import Parting
-from xei_lang.motion.sequence.poses import orbits, same_grasp
+from xei_lang.motion.sequence.poses import same_grasp
+from xei_lang.motion.sequence.realise import BlockedAt, realise
 from xei_lang.motion.sequence.rehearse import Rehearsal, rehearse_group
 from xei_lang.motion.sequence.search import Search, avoid, stages_of, travel
-from xei_lang.motion.sequence.sections import Chain, Group
+from xei_lang.motion.sequence.sections import Group
 from xei_lang.motion.sequence.snapshot import UNCHOSEN, Snapshot
 from xei_lang.motion.sequence.sound import all_sound
 from xei_lang.motion.sequence.space import Pair, Touch, space_for, target_check
-from xei_lang.motion.sequence.transit import keeps_upright, plan_transit
+from xei_lang.motion.sequence.transit import keeps_upright
 
 Array = NDArray[np.float64]
 
@@ -48,12 +49,14 @@ DETOUR_S = 0.5
 class Ahead:
     """What comes after a group: the configuration (7,) of the arm that is named next, if one is, and the
     chains of later groups in which the hand still holds what it took in this one, up to where it lets go: the
-    grasp must serve in all of them; and how the hand parts from it that this group takes it from.
+    grasp must serve in all of them; how the hand parts from it that this group takes it from; and, where the
+    two grasps are chosen together, its taking by the other hand after the last of those chains.
     """
 
     configuration: Array | None = None
     release: tuple[Rehearsal, ...] = ()
     parting: Parting | None = None
+    encounter: Encounter | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,7 +141,7 @@ def _layers(
         else:
             allowed = _allowed(rehearsal)
             if effort.exhaustive and layers and chain.arm in rehearsal.before.held:
-                allowed &= _shown(chain, layers[-1])
+                allowed &= shown(chain, layers[-1].member)
             layer = enumerate_layer(context, chain, tried, allowed, target_check(context, rehearsal), effort)
         layers.append(layer)
         if len(layer) == 0:
@@ -158,6 +161,7 @@ def _search(
         arm_speeds = context.speeds(context.robot.arm(group.arm).joint_names)
         homeward = arm_speeds.travel_s(last.q[:, -1, 1:], ahead.configuration[None])[:, 0]
     runs = Runs(transitions)
+    meeting = None if ahead.encounter is None else Meeting(context, ahead.encounter)
     failure: Failure | None = None
     blocked = 0
     while blocked <= effort.blocked_transits:
@@ -166,15 +170,15 @@ def _search(
             return failure or _unplaced(search, transitions)
         if search.strikes > MAX_STRIKES:
             return failure or _given_up(search)
-        if not all_sound(context, search, run[1:]):
+        if not all_sound(context, search, run[1:]) or not _is_taken(search, meeting, run[-1]):
             continue
         dearer = _dearer(context, search, run, transitions, now)
         for stage in dearer:
             runs.changed(stage)
         if dearer:
             continue
-        result = _realise(context, group, search, run[1:], start)
-        if not isinstance(result, _BlockedAt):
+        result = realise(context, group, search, run[1:], start)
+        if not isinstance(result, BlockedAt):
             return result
         avoid(search, result.stage, run, transitions[result.stage])
         runs.changed(result.stage)
@@ -193,13 +197,20 @@ def _allowed(rehearsal: Rehearsal) -> Bools:
     return same_grasp(chain.family, held.member, chain.turns)
 
 
-def _shown(chain: Chain, before: Layer) -> Bools:
-    """The members that show a grasp which the layer before has as well: no other may follow."""
-    members = np.arange(len(chain.family.members))
-    if chain.turns:
-        names = orbits(chain.family)
-        return np.isin(names, names[before.member])
-    return np.isin(members, before.member)
+def _is_taken(search: Search, meeting: Meeting | None, index: int) -> bool:
+    """Whether the other hand can take what the last chain's candidate holds out; strike out those like it
+    where it cannot.
+    """
+    stage = len(search.layers) - 1
+    if meeting is None or (stage, index) in search.met:
+        return True
+    layer = search.layers[stage]
+    if meeting.allows(layer, index):
+        search.met.add((stage, index))
+        return True
+    search.struck[stage].append(Touch(int(layer.member[index]), None))
+    search.alive[stage] &= ~layer.like(index)
+    return False
 
 
 def _dearer(
@@ -227,41 +238,6 @@ def _dearer(
 def _is_stated(rehearsal: Rehearsal) -> bool:
     """Whether the straight line in joint space says nothing of the move that a chain begins with."""
     return keeps_upright(rehearsal) or goes_on(rehearsal.chain)
-
-
-@dataclass(frozen=True, slots=True)
-class _BlockedAt:
-    stage: int
-    blocked: PathBlocked
-    before: Snapshot
-
-
-def _realise(
-    context: Context, group: Group, search: Search, chosen: tuple[int, ...], start: Snapshot
-) -> tuple[Motion, ...] | _BlockedAt:
-    """The motions of a chosen run, transits planned; or the first transit that found no path."""
-    now = start
-    motions: list[Motion] = []
-    stage = 0
-    for item in group.items:
-        if not isinstance(item, Chain):
-            motion = plan_fixed(context, item, now)
-            assert isinstance(motion, Motion)
-            motions.append(motion)
-            now = motion.after
-            continue
-        layer, index = search.layers[stage], chosen[stage]
-        prefix = chosen[: stage + 1]
-        transit = search.transits.get(prefix) or plan_transit(context, layer, index, now)
-        search.transits[prefix] = transit
-        if isinstance(transit, PathBlocked):
-            return _BlockedAt(stage, transit, now)
-        rest = carry_out(context, layer, index, transit.after)
-        assert rest is not None
-        motions.extend((transit, *rest))
-        now = motions[-1].after
-        stage += 1
-    return tuple(motions)
 
 
 def _unplaced(search: Search, transitions: tuple[Array, ...]) -> Unplaced:

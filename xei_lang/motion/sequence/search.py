@@ -40,6 +40,7 @@ class Search:
         default_factory=dict[tuple[int, ...], Motion | PathBlocked]
     )
     sound: set[tuple[int, int]] = field(default_factory=set[tuple[int, int]])
+    met: set[tuple[int, int]] = field(default_factory=set[tuple[int, int]])
     glanced: dict[int, set[tuple[int, int]]] = field(default_factory=dict[int, set[tuple[int, int]]])
 
     @property
