@@ -22,7 +22,7 @@ ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT))
 
 from tests.lower.plans import bench, obj, slot, spot, surface  # noqa: E402
-from tests.lower.works import Args, grasp_of, holding, step_of, work_of  # noqa: E402
+from tests.lower.works import Args, holding, step_of, work_of  # noqa: E402
 from xei_lang.ir.geometry import Pose  # noqa: E402
 from xei_lang.ir.skill_plan import Fact, ObjectRef, PlaceRef, Step  # noqa: E402
 from xei_lang.lower.look import look_height  # noqa: E402
@@ -49,6 +49,13 @@ class Case:
     giver: str = ""
     known: tuple[Fact, ...] = ()
 
+    def title(self, made: Planned) -> str:
+        """What the row is called."""
+        if self.operation == "grasp" and made.family is not None:
+            return f"grasp {self.about} ({len(made.family.members)} grasps)"
+        place = f", {self.subject.object} {self.subject.kind}" if isinstance(self.subject, PlaceRef) else ""
+        return f"{self.operation} {self.about}{place}"
+
     def job(self, scene: Scene) -> Callable[[], Planned]:
         """The planner's run on this scene, with the layers of its parameters."""
         plan = next(item.plan for item in OPERATIONS if item.name == self.operation)
@@ -58,8 +65,12 @@ class Case:
         return lambda: plan(work_of(step, self.subject, self.about, scene))
 
 
+GRASPED = ("tube_1", "tube_7", "beaker_1", "bottle_1", "wipe_1", "vial_1", "weight_100g", "pipette_1")
+"""One for each kind of object that hands take; those that stand alike cost alike."""
+
+
 def cases() -> list[Case]:
-    """Each operation once, and placing in its three kinds of places."""
+    """Each operation on all kinds of objects and places that cost differently."""
     tube, beaker, pipette, wipe = (obj(name) for name in ("tube_1", "beaker_1", "pipette_1", "wipe_1"))
     screen, source = obj("incubator_screen"), obj("beaker_3")
     hole, front, table = slot("rack_2", "A1"), spot("table", "front"), surface("table")
@@ -72,6 +83,10 @@ def cases() -> list[Case]:
     low = (Fact("volume", "beaker_3", quantity(80, "mL")),)
     turn, swing = {"angle": quantity(180, "deg")}, {"amplitude": quantity(20, "deg")}
     return [
+        *(
+            Case("grasp", "pick", {"object": obj(name)}, obj(name), name, held=False)
+            for name in GRASPED
+        ),
         Case("lift", "pick", {"object": tube}, tube, "tube_1"),
         Case("place", "insert", {"object": tube, "into": hole}, hole, "tube_1"),
         Case("place", "place", {"object": beaker, "on": front}, front, "beaker_1"),
@@ -92,10 +107,6 @@ def cases() -> list[Case]:
         Case("invert", "invert", {"object": tube, **turn}, tube, "tube_1"),
         Case("shake", "shake", {"object": tube, **swing}, tube, "tube_1"),
     ]  # fmt: skip
-
-
-GRASPED = ("tube_1", "tube_7", "beaker_1", "bottle_1", "wipe_1", "vial_1", "weight_100g", "pipette_1")
-"""One for each kind of object that hands take; those that stand alike cost alike."""
 
 
 def scenes(rounds: int) -> list[Scene]:
@@ -148,17 +159,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--small", action="store_true", help="1 round instead of 50")
     stands = scenes(1 if parser.parse_args().small else 50)
-    grasp = next(item.plan for item in OPERATIONS if item.name == "grasp")
-    for name in GRASPED:
-        made = grasp(grasp_of(name, stands[0]))
-        assert made.family is not None
-        jobs = [lambda scene=scene, name=name: grasp(grasp_of(name, scene)) for scene in stands]
-        report(f"grasp {name} ({len(made.family.members)} grasps)", jobs, made)
     for case in cases():
-        where = case.subject.name if isinstance(case.subject, ObjectRef) else case.subject.object
-        kind = f" {case.subject.kind}" if isinstance(case.subject, PlaceRef) else ""
         jobs = [case.job(scene) for scene in stands]
-        report(f"{case.operation} {case.about}, {where}{kind}", jobs, jobs[0]())
+        made = jobs[0]()
+        report(case.title(made), jobs, made)
     report("look tube_5", [look(scene) for scene in stands])
 
 

@@ -16,11 +16,11 @@ def shoulder_xy(profile: Profile, side: Side) -> tuple[float, float]:
     It lies on the second joint's axis, where the first three axes meet; that joint's own origin is near
     enough here.
     """
+    by_child = {item.child: item for item in profile.robot.joints}
     point, joint = (0.0, 0.0, 0.0), profile.robot.joint(f"openarm_{side}_joint2")
     while joint is not None:
         point = joint.T_parent_joint.apply(point)
-        parent = joint.parent
-        joint = next((item for item in profile.robot.joints if item.child == parent), None)
+        joint = by_child.get(joint.parent)
     return (point[0], point[1])
 
 

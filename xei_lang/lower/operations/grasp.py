@@ -156,14 +156,12 @@ def _widths(work: Work, known: LabObject, closing: Closing, hand: Hand) -> _Widt
     room_m = (hand.max_gap_m - closing.width_m) / 2
     default = work.layers.skill.get("jaw_clearance")
     wanted_m = default.si("Length") if default else _SKILL_CLEARANCE_M
-    narrow = computed_length(
-        "jaw_clearance",
-        min(room_m, wanted_m),
-        f"what {_mm(hand.max_gap_m)} leaves beside {_mm(closing.width_m)}",
-    )
-    clearance = work.layers.written("jaw_clearance") or (
-        default if default and wanted_m <= room_m else narrow
-    )
+    clearance = work.layers.written("jaw_clearance")
+    if clearance is None and default is not None and wanted_m <= room_m:
+        clearance = default
+    elif clearance is None:
+        rule = f"what {_mm(hand.max_gap_m)} leaves beside {_mm(closing.width_m)}"
+        clearance = computed_length("jaw_clearance", min(room_m, wanted_m), rule)
     origin = f", {known.computed_from}" if known.computed_from else ""
     width = f"width of the object between the jaws{origin}"
     closed = work.layers.merge("grasp_width", computed_length("grasp_width", closing.width_m, width))

@@ -40,6 +40,7 @@ def room_in_air(work: Work, sides: tuple[Side, ...], radius_m: float) -> tuple[V
 def _highest(work: Work, x: float, y: float, radius_m: float) -> float:
     """The top of the highest object that reaches under a circle, in the base frame; 0 where there is none."""
     T_world_base = work.scene.epoch.T_world_base
+    T_base_world = T_world_base.inverse()
     up_x, up_y, up_z = T_world_base.rotate((0.0, 0.0, 1.0))
     qx, qy, qz = T_world_base.apply((x, y, 0.0))
     objects = {item.name: item for item in work.profile.objects}
@@ -60,5 +61,5 @@ def _highest(work: Work, x: float, y: float, radius_m: float) -> float:
         beside_x, beside_y, _ = standing.T_world_object.locate(point)
         away = math.hypot(max(0.0, abs(beside_x) - length / 2), max(0.0, abs(beside_y) - width / 2))
         if away < radius_m:
-            top = max(top, work.scene.T_base_object(name).apply((0.0, 0.0, height))[2])
+            top = max(top, (T_base_world @ standing.T_world_object).apply((0.0, 0.0, height))[2])
     return top

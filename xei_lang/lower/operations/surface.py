@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from xei_lang.ir.geometry import Pose, Vec3
 from xei_lang.ir.skill_plan import Side
 from xei_lang.lower.robot import shoulder_xy
-from xei_lang.lower.walk import Scene
+from xei_lang.lower.walk import Scene, Standing
 from xei_lang.profiles.model import LabObject, Profile
 from xei_lang.record import Record, record
 
@@ -79,18 +79,19 @@ def free_room(profile: Profile, scene: Scene, arm: Side, surface: str, known: La
 def _first_free(
     x: float, points: Iterable[tuple[float, float]], obstacles: list[_Obstacle], most_m: float
 ) -> _Found:
-    """The first free one of a row's points, which come with growing distance, unless it is beyond
-    `most_m`.
+    """The first free one of a row's points, which come with growing distance, unless it is beyond `most_m`.
+    Changes the order of the obstacles.
     """
-    last: _Obstacle | None = None
     for y, away_m in points:
         if away_m > most_m + _ALIKE_M:
             break
-        # Points side by side are mostly blocked by the same thing.
-        if last is None or not last.blocks(x, y):
-            last = next((item for item in obstacles if item.blocks(x, y)), None)
-            if last is None:
-                return (round(away_m, 6), x, y)
+        for k, item in enumerate(obstacles):
+            if item.blocks(x, y):
+                # What blocks a point mostly blocks the next one too.
+                obstacles.insert(0, obstacles.pop(k))
+                break
+        else:
+            return (round(away_m, 6), x, y)
     return (math.inf, 0.0, 0.0)
 
 
@@ -135,23 +136,38 @@ def _obstacles(
     T_world_host = scene.standing[host.name].T_world_object
     objects = {item.name: item for item in profile.objects}
     half_x, half_y, top = host.size_m[0] / 2, host.size_m[1] / 2, host.size_m[2]
+    corners = [T_world_host.apply(point) for point in ((0.0, 0.0, top), (1.0, 0.0, top), (0.0, 1.0, top))]
     for name, other in scene.standing.items():
         thing = objects.get(name)
-        if thing is None or name in (host.name, known.name):
+        if thing is None or name in (host.name, known.name) or _is_hidden(other, thing, scene, host, objects):
             continue
         length, width, height = thing.size_m
         x, y, _ = T_world_host.locate(other.T_world_object.position_m)
         reach = length + width + height + known.size_m[2] + 2 * beside_m
         if abs(x) > half_x + reach or abs(y) > half_y + reach:
             continue
-        T_thing_host = other.T_world_object.inverse() @ T_world_host
+        origin, one_x, one_y = (other.T_world_object.locate(corner) for corner in corners)
         yield _Obstacle(
-            T_thing_host.apply((0.0, 0.0, top)),
-            T_thing_host.rotate((1.0, 0.0, 0.0)),
-            T_thing_host.rotate((0.0, 1.0, 0.0)),
+            origin,
+            (one_x[0] - origin[0], one_x[1] - origin[1], one_x[2] - origin[2]),
+            (one_y[0] - origin[0], one_y[1] - origin[1], one_y[2] - origin[2]),
             length / 2,
             width / 2,
             -known.size_m[2],
             height - 1e-3,
             beside_m,
         )
+
+
+def _is_hidden(
+    other: Standing, thing: LabObject, scene: Scene, host: LabObject, objects: dict[str, LabObject]
+) -> bool:
+    """Whether the object stands within the outline of another, which stands on the surface itself: a tube in
+    a rack takes no room that the rack does not take.
+    """
+    carrier, below = scene.standing.get(other.support), objects.get(other.support)
+    if carrier is None or below is None or carrier.support != host.name:
+        return False
+    x, y, _ = carrier.T_world_object.locate(other.T_world_object.position_m)
+    radius = math.hypot(thing.size_m[0], thing.size_m[1]) / 2
+    return abs(x) + radius <= below.size_m[0] / 2 and abs(y) + radius <= below.size_m[1] / 2
