@@ -38,7 +38,7 @@ def profile_folder(named: str | None) -> tuple[Path | None, Diagnostics]:
         found = only_profile(here)
         return found, () if found else (missing_profile("", here, None, None),)
     path = Path(named)
-    found = find_profile(path.name, here, path if path.exists() and len(path.parts) > 1 else None)
+    found = find_profile(path.name, here, path if "/" in named and path.exists() else None)
     return found, () if found else (missing_profile(named, here, None, None),)
 
 

@@ -10,6 +10,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from xei_lang.profiles.schema.frames import Day
 from xei_lang.profiles.schema.values import Model, Name, Text
 
 Vector = Annotated[list[float], Field(min_length=3, max_length=3)]
@@ -58,7 +59,7 @@ class RecordingModel(Model):
     """
 
     version: Literal[1]
-    recorded_on: Annotated[str, Field(pattern=r"^[0-9]{4}-[0-9]{2}-[0-9]{2}$")]
+    recorded_on: Day
     camera: Name
     target: Name
     station: Name | None = None

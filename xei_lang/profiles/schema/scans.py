@@ -10,6 +10,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from xei_lang.profiles.schema.frames import Day
 from xei_lang.profiles.schema.values import Model, Name
 
 Angle = Annotated[float, Field(ge=-7, le=7)]
@@ -23,7 +24,7 @@ class ScansModel(Model):
     """
 
     version: Literal[1]
-    recorded_on: Annotated[str, Field(pattern=r"^[0-9]{4}-[0-9]{2}-[0-9]{2}$")]
+    recorded_on: Day
     lidar: Name
     angle_min_rad: Angle
     angle_increment_rad: Annotated[float, Field(ge=-1, le=1)]
