@@ -8,7 +8,7 @@ The blocks of a page, in their order:
   `sh` block that names its file.
 - `sh`: what calls xei (and does not install it) is run in that copy, and prints what the `text` block behind
   it shows. Numbers that depend on the machine or on the plan that was found are not compared.
-- `csv`: is written to the path in its first line, which is not part of it.
+- `csv`: is written to the path in its first line, which is not part of it; so is `obj`, a mesh.
 - `json`: is written to the file that was named last before it.
 - `yaml`: is put behind the skills of the bench's skill bank.
 - `diff`: changes a file of the bench, which a line "In `usage_profile.yaml`:" before it names, from there on.
@@ -129,9 +129,11 @@ def _run(block: Block, project: Path, cache: Path) -> str | None:
     if block.language == "xei":
         file = _written(block.body, project)
         return None if file in block.next_command else _call(["check", file, "--quiet"], project, cache)
-    if block.language == "csv":
+    if block.language in ("csv", "obj"):
         head, _, rows = block.body.partition("\n")
-        (project / head.removeprefix("# ")).write_text(rows, encoding="utf-8")
+        path = project / head.removeprefix("# ")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(rows, encoding="utf-8")
     if block.language == "yaml":
         bank = project / "profiles" / "openarm_bench" / "development_profile.yaml"
         bank.write_text(f"{bank.read_text(encoding='utf-8')}\n{block.body}", encoding="utf-8")
