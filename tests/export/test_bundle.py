@@ -89,13 +89,19 @@ def test_the_manifest_says_what_went_in_and_what_blocks(tmp_path: Path) -> None:
         "tools": {"rosbags": "0.11.9"},
         "inputs": {"profiles/openarm_bench/usage_profile.yaml": "2" * 64, "protocols/small.xei": "1" * 64},
         "readiness": [
+            {"stage": "simulate", "ready": False, "blockers": 1, "by_representation": {"usage_profile": 1}},
             {
-                "stage": stage,
+                "stage": "strict",
                 "ready": False,
-                "blockers": 1,
-                "by_representation": {"usage_profile": 1},
-            }
-            for stage in ("simulate", "strict", "hardware")
+                "blockers": 2,
+                "by_representation": {"calibration_profile": 1, "usage_profile": 1},
+            },
+            {
+                "stage": "hardware",
+                "ready": False,
+                "blockers": 6,
+                "by_representation": {"calibration_profile": 3, "usage_profile": 3},
+            },
         ],
         "blockers": [blocker_json(blocker) for blocker in deployment_blockers(profile())],
         "files": {"plan.json": "ca3d163bab055381827226140568f3bef7eaac187cebd76878e0b63e9e442356"},
