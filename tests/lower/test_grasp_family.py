@@ -5,14 +5,14 @@ description has them.
 from __future__ import annotations
 
 import math
-import re
 from dataclasses import replace
 from itertools import product
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.lower.plans import FOLDER, bench, moved, obj, plan, put_on_rack, with_object
+from tests.lower.hands import hand_boxes, links_in_tool
+from tests.lower.plans import bench, moved, obj, plan, put_on_rack, with_object
 from xei_lang.ir.geometry import Box, Cylinder, Pose, Vec3
 from xei_lang.ir.goals import Family, Grip, MotionGoalGraph, MoveTo, ToolPose, ToolTarget
 from xei_lang.ir.verify_goals import verify_goals
@@ -192,31 +192,9 @@ def family_of_tube() -> Family:
     return graph.families[0]
 
 
-def hand_boxes() -> list[tuple[str, Vec3, Vec3]]:
-    """Centres and sizes of the right hand's collision boxes, each with its link, from the URDF."""
-    text = (FOLDER / "robot" / "openarm_mobile.urdf").read_text(encoding="utf-8")
-    pattern = (
-        r'<collision name="openarm_right_(hand|left_finger|right_finger)_\d+">'
-        r'<origin xyz="([^"]*)" rpy="0 0 0"/><geometry><box size="([^"]*)"/>'
-    )
-    found = [(link, vector(center), vector(size)) for link, center, size in re.findall(pattern, text)]
-    assert len(found) == 13
-    return found
-
-
-def vector(text: str) -> Vec3:
-    x, y, z = (float(word) for word in text.split())
-    return (x, y, z)
-
-
 def lowest(member: ToolPose, gap_m: float) -> float:
     """The lowest corner of hand and fingers, opened to a gap, in the object's frame."""
-    # Origins of the links in the grasp frame, which is 6 mm along y and 80 mm along z of the hand.
-    origins = {
-        "hand": (0.0, -0.006, -0.08),
-        "right_finger": (0.0, -0.006 - gap_m / 2, -0.065),
-        "left_finger": (0.0, 0.006 + gap_m / 2, -0.065),
-    }
+    origins = links_in_tool(gap_m)
     heights: list[float] = []
     for link, center, size in hand_boxes():
         for signs in product((-0.5, 0.5), repeat=3):

@@ -16,7 +16,7 @@ from xei_lang.ir.tool_paths import Raster
 from xei_lang.lower.operations.base import Aim, Area, Operation, Planned, Work
 from xei_lang.lower.operations.held import in_hand
 from xei_lang.lower.operations.lift import along
-from xei_lang.lower.parameters import Setting, computed_length
+from xei_lang.lower.parameters import ROUNDING_M, Setting, computed_length
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.seats import Seat, seat_of
 from xei_lang.lower.walk import Held
@@ -40,8 +40,8 @@ def plan(work: Work) -> Planned:
     )
     turn = _turn(held, T_base_seat)
     size = tool.size_m[:2] if turn % 2 == 0 else tool.size_m[1::-1]
-    room = (max(0.0, region[0] - size[0]), max(0.0, region[1] - size[1]))
-    if max(room) <= 0.0:
+    room = (region[0] - size[0], region[1] - size[1])
+    if min(room) < -ROUNDING_M or max(room) <= ROUNDING_M:
         refuse(
             "XEI0721",
             f"the area to wipe is not larger than `{tool.name}`",
@@ -54,7 +54,7 @@ def plan(work: Work) -> Planned:
     height = work.layers.merge("wipe_height", computed_length("wipe_height", _HEIGHT_M, "above the surface"))
     assert pitch is not None
     assert height is not None
-    area = _area(T_base_seat, room)
+    area = _area(T_base_seat, (max(0.0, room[0]), max(0.0, room[1])))
     yaw = Pose.from_rpy((0.0, 0.0, 0.0), (0.0, 0.0, turn * math.pi / 2))
     T_base_start = Pose(area.corner_m, T_base_seat.quaternion) @ yaw
     return _planned(work, held, host, area, T_base_start, (pitch, height))
