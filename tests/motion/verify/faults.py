@@ -26,6 +26,13 @@ from tests.motion.verify.faults_motion import (
     wrong_start,
 )
 from tests.motion.verify.faults_reach import crooked_line, wrong_goal
+from tests.motion.verify.faults_riders import (
+    forgotten_rider,
+    loose_rider,
+    object_in_riders_path,
+    rider_left_behind,
+    shifted_rider,
+)
 from tests.motion.verify.faults_said import (
     dropped_object,
     ends_first,
@@ -93,4 +100,9 @@ MAKERS: tuple[Callable[[Bench], Fault | None], ...] = (
     extra_goal,
     not_a_number,
     short_rows,
+    forgotten_rider,
+    shifted_rider,
+    rider_left_behind,
+    loose_rider,
+    object_in_riders_path,
 )

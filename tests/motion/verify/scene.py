@@ -308,6 +308,3 @@ def tour() -> Case:
         ),
     )
     return plan, graph, World((), objects, RobotState((), "bench_a", Pose())), robot()
-
-
-CASES = (pick_and_place, tour)

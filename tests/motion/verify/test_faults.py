@@ -7,11 +7,13 @@ from random import Random
 
 import pytest
 
+from tests.motion.verify.closed import closed_tube
 from tests.motion.verify.fault_bench import Bench
 from tests.motion.verify.faults import MAKERS, inject
-from tests.motion.verify.scene import CASES, Case, arm_of
+from tests.motion.verify.scene import Case, arm_of, pick_and_place, tour
 from xei_lang.motion.verify import verify_timed
 
+CASES = (pick_and_place, tour, closed_tube)
 FAULTS, PART = 1000, 50
 
 
