@@ -229,3 +229,25 @@ def test_any_bytes_are_read_or_refused(data, name):
         (read_mesh, read_cloud), (b"", b"ply\n", b"solid facet\n", b"v 1 2 3\n")
     ):
         assert isinstance(reader(start + data, name), Points | str)
+
+
+_RING = [(np.cos(k * np.pi / 3), np.sin(k * np.pi / 3)) for k in range(6)]
+_PRISM = "".join(f"v {x} {y} {z}\n" for z in (0, 2) for x, y in _RING)
+_ENDS = ["6 5 4 3 2 1", "7 8 9 10 11 12"]
+_SIDES = [f"{k} {k % 6 + 1} {k % 6 + 7} {k + 6}" for k in range(1, 7)]
+
+
+@pytest.mark.parametrize(
+    "faces",
+    [
+        "".join(f"f {face}\n" for face in (*_ENDS, *_SIDES)),
+        "".join("f " + " ".join(str(int(i) - 13) for i in face.split()) + "\n" for face in (*_ENDS, *_SIDES)),
+        "usemtl a\n" + "".join(f"f {face}\n" for face in _SIDES) + "usemtl b\nf " + "\nf ".join(_ENDS) + "\n",
+        "g a\n" + "".join(f"f {face}\n" for face in _SIDES) + "o b\nf " + "\nf ".join(_ENDS) + "\n",
+    ],
+    ids=["polygons", "from the end", "materials", "groups"],
+)
+def test_polygons_indices_from_the_end_and_parts_of_an_obj(faces):
+    found = read_mesh((_PRISM + faces).encode(), "prism.obj")
+    assert found.is_closed
+    np.testing.assert_allclose(bounds(found), [(-1, -np.sqrt(3) / 2, 0), (1, np.sqrt(3) / 2, 2)])
