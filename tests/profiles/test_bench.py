@@ -34,6 +34,9 @@ def test_the_skill_bank_is_the_one_that_protocols_are_written_for():
         "invert": ["object", "angle", "times", "arm"],
         "shake": ["object", "amplitude", "times", "arm"],
         "handover": ["object", "arm", "to"],
+        "run_by_output": ["device", "output", "time"],
+        "run_by_screen": ["device", "screen", "element", "time", "arm"],
+        "read": ["device", "wavelength"],
     }
     assert all(skill.exposed and skill.phrases and skill.process for skill in bench().bank.skills)
 
