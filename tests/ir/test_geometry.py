@@ -99,3 +99,17 @@ def test_quaternions_are_unit_and_have_one_sign(a):
 )
 def test_roll_pitch_yaw_turn_about_fixed_axes(rpy, axis, turned):
     assert near(Pose.from_rpy((0.0, 0.0, 0.0), rpy).rotate(axis), turned)
+
+
+@given(poses, vectors)
+def test_locating_a_point_is_the_way_back(a, point):
+    assert near(a.locate(point), a.inverse().apply(point))
+    assert near(a.apply(a.locate(point)), point)
+
+
+@given(poses)
+def test_a_rotation_has_one_quaternion_of_unit_norm(a):
+    x, y, z, w = (a @ a).quaternion
+    assert math.hypot(x, y, z, w) == pytest.approx(1.0, abs=1e-12)
+    assert w >= 0.0
+    assert "-0.0" not in repr((IDENTITY @ Pose((0.0, 0.0, 0.0), (-0.0, 0.0, -0.0, -1.0))).quaternion)

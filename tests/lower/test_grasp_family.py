@@ -5,6 +5,7 @@ description has them.
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import replace
 from itertools import product
 
@@ -140,6 +141,39 @@ def test_side_and_oblique_grasps_come_before_straight_down() -> None:
     assert costs == sorted(costs)
     first_down = next(k for k, member in enumerate(members) if member.name.startswith("straight down"))
     assert first_down > len(members) / 3
+
+
+WORDS = re.compile(
+    r"(from the side|straight down|(\d+) deg down), azimuth (\d+) deg(, rolled)?, (\d+\.\d) mm under the top"
+)
+
+
+@given(SHAPES, POSES)
+@settings(max_examples=40, deadline=None)
+def test_members_are_what_their_names_say_in_the_order_of_cost_and_name(
+    shape: Box | Cylinder, pose: Pose
+) -> None:
+    members = picked(shape, pose).families[0].members
+    top = shape.size_m[2] if isinstance(shape, Box) else shape.height_m
+    assert list(members) == sorted(members, key=lambda member: (member.cost, member.name))
+    assert len({member.name for member in members}) == len(members)
+    for member in members:
+        words = WORDS.fullmatch(member.name)
+        assert words is not None
+        kind, degrees, azimuth, rolled, under = words.groups()
+        down = math.radians({"from the side": 0, "straight down": 90}.get(kind) or float(degrees or 0))
+        heading = math.radians(float(azimuth))
+        _, y, z = member.T_reference_tool.axes()
+        level = math.cos(down)
+        expected = (level * math.cos(heading), level * math.sin(heading), -math.sin(down))
+        assert max(abs(a - b) for a, b in zip(z, expected, strict=True)) < 1e-9
+        opening = (-math.sin(heading), math.cos(heading), 0.0)
+        sign = -1.0 if rolled else 1.0
+        assert max(abs(a - sign * b) for a, b in zip(y, opening, strict=True)) < 1e-9
+        assert abs(top - member.T_reference_tool.position_m[2] - float(under) / 1000) <= 5.1e-5
+        assert 0.0 <= member.cost == round(member.cost, 6)
+        pose_again = Pose(member.T_reference_tool.position_m, member.T_reference_tool.quaternion)
+        assert member == ToolPose(member.name, pose_again, member.cost)
 
 
 def test_a_round_object_may_be_turned_and_a_box_not() -> None:
