@@ -10,8 +10,9 @@ from dataclasses import replace
 import pytest
 
 from tests.lower.capped import BOTTLE, CAP, HEIGHT_M, capped
+from tests.lower.plans import surface
 from tests.motion.capped import CARRY, cap_of, carried, changed, findings, placed, set_down
-from tests.motion.sequence.bench import planned
+from tests.motion.sequence.bench import goals, obj, plan, planned, station
 from xei_lang.ir.geometry import Box, Pose, Primitive
 from xei_lang.ir.timed import Placement, TimedGoal
 from xei_lang.ir.world import World, WorldObject
@@ -65,6 +66,36 @@ def test_the_cap_goes_where_its_bottle_goes() -> None:
     left = placed(goal)
     assert set(left) == {BOTTLE, CAP}
     same(left[BOTTLE].T_base_object @ T_bottle_cap, left[CAP].T_base_object)
+
+
+PICK = ("pick", {"object": obj(BOTTLE), "arm": "right"})
+JOURNEYS = {
+    "set down elsewhere": plan(
+        PICK, ("place", {"object": obj(BOTTLE), "on": surface("table"), "arm": "right"})
+    ),
+    "driven": plan(
+        PICK,
+        ("nav_to", {"station": station("bench_b")}),
+        ("place", {"object": obj(BOTTLE), "on": surface("table_b"), "arm": "right"}),
+    ),
+    "handed over": plan(PICK, ("handover", {"object": obj(BOTTLE), "arm": "right", "to": "left"})),
+}
+
+
+@pytest.mark.parametrize("name", sorted(JOURNEYS))
+def test_so_it_does_over_longer_ways(name: str) -> None:
+    profile, world = capped()
+    timed, problems = planned(JOURNEYS[name], profile, world)
+    assert timed is not None, problems
+    assert findings(timed, goals(JOURNEYS[name], profile, world), world) == ()
+    T_bottle_cap = world.T_world_object(BOTTLE).inverse() @ world.T_world_object(CAP)
+    for goal in timed.goals:
+        bottles = {item.link: item.T_link_object for item in goal.attached if item.object == BOTTLE}
+        caps = {item.link: item.T_link_object for item in goal.attached if item.object == CAP}
+        assert set(bottles) == set(caps)
+        for link, T_link_bottle in bottles.items():
+            same(T_link_bottle @ T_bottle_cap, caps[link])
+        assert set(placed(goal)) in (set(), {BOTTLE, CAP})
 
 
 def same(first: Pose, second: Pose) -> None:
