@@ -1,165 +1,21 @@
-"""The passes in order. Each takes what the ones before it made, and hands on one representation.
-
-A failure can always be named by its handoff: a pass adds its value, or stops with diagnostics.
-"""
+"""The passes in order. Each takes what the ones before it made, and hands on one representation."""
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from xei_lang.diagnostics import Diagnostics, Source, has_errors
-from xei_lang.record import Shown, record
+from xei_lang.diagnostics import Diagnostics
+from xei_lang.pipeline.handoffs import Handoffs, Pass, Request
 
 if TYPE_CHECKING:
     from xei_lang.inputs import Outside
-    from xei_lang.ir.goals import MotionGoalGraph
-    from xei_lang.ir.skill_plan import SkillPlan
-    from xei_lang.ir.timed import TimedPlan
-    from xei_lang.ir.world import World
-    from xei_lang.motion.verify import Checked
     from xei_lang.profiles.model import Profile
-    from xei_lang.syntax.ast import Module
-    from xei_lang.world.sources import Observations
-
-Progress = Callable[[str, int, int], None]
-"""Called by long passes with the pass's name, how much is done and how much there is."""
 
 
-@record
-class Request(Shown):
-    """Everything that a compilation is a function of.
-
-    `outside` is given where several requests share what they read; else each reads for itself. `observed` is
-    what sources of the world said, the better ones later; without any, the profile's priors hold.
-    """
-
-    source: Source
-    profile_folder: Path | None = None
-    cache: Path | None = None
-    bindings: tuple[tuple[str, str], ...] = ()
-    params: tuple[tuple[str, str], ...] = ()
-    open_bindings: bool = False
-    max_steps: int = 100_000
-    allow_unmapped: bool = False
-    strict: bool = False
-    seed: int = 0
-    progress: Progress | None = None
-    outside: Outside | None = None
-    observed: tuple[Observations, ...] = ()
-
-
-@record
-class Handoffs(Shown):
-    """The representations made so far; each pass fills in one."""
-
-    module: Module | None = None
-    imported: tuple[Source, ...] = ()
-    profile: Profile | None = None
-    plan: SkillPlan | None = None
-    world: World | None = None
-    graph: MotionGoalGraph | None = None
-    timed: TimedPlan | None = None
-    verified: Checked | None = None
-
-
-@record
-class Pass(Shown):
-    """One step of the compilation.
-
-    `name` is what `--print-after` takes, `adds` the field of `Handoffs` that must be there once it has run.
-    `run` gives the handoffs with the pass's own added, and what it has to say; it imports its room when it
-    runs.
-    """
-
-    name: str
-    adds: str
-    run: Callable[[Request, Handoffs], tuple[Handoffs, Diagnostics]]
-
-
-@record
-class PassResult(Shown):
-    """What a pass did, for those who watch: printing, timing, verification between passes."""
-
-    pass_name: str
-    made: Handoffs
-    diagnostics: Diagnostics
-    seconds: float
-    failed: bool
-
-
-@record
-class Outcome(Shown):
-    """The end of a compilation: what was made, everything that was said, and the pass that stopped it."""
-
-    made: Handoffs
-    diagnostics: Diagnostics
-    stopped_at: str | None
-
-
-def compile_request(
-    request: Request,
-    passes: tuple[Pass, ...],
-    watch: Callable[[PassResult], None] = lambda _result: None,
-) -> Outcome:
-    """Run the passes in order, until one has errors. `watch` sees each pass as it ends."""
-    return _run(request, Handoffs(), passes, watch)
-
-
-def check_request(request: Request) -> Diagnostics:
-    """Run the passes of `FRONT`, beyond errors of the grammar as well.
-
-    What could be read of the file is then checked, and of that is said what has nothing to do with the rest.
-    A `.json` file is a plan that came from elsewhere.
-    """
-    if request.source.file.endswith(".json"):
-        return _check_plan(request)
-    outcome = compile_request(request, FRONT)
-    module = outcome.made.module
-    if outcome.stopped_at != FRONT[0].name or module is None:
-        return outcome.diagnostics
-    from xei_lang.syntax.trust import trusted
-
-    later = _run(request, outcome.made, FRONT[1:], lambda _result: None)
-    return (*outcome.diagnostics, *trusted(later.diagnostics, request.source, module.damaged))
-
-
-def _check_plan(request: Request) -> Diagnostics:
-    """A plan's JSON form against the profile that it names; one that names none, against the only one."""
-    from xei_lang.check.plan_file import check_plan, read_plan_text
-    from xei_lang.profiles.sources import profile_sources
-
-    text, said = read_plan_text(request.source)
-    if text is None:
-        return said
-    named = text.profile
-    profile, found = _outside(request).profile(named, library=named is None)
-    if profile is None:
-        return (*said, *found)
-    _, checked = check_plan(text, request.source, profile, profile_sources(profile))
-    return (*said, *found, *checked)
-
-
-def _run(
-    request: Request, made: Handoffs, passes: tuple[Pass, ...], watch: Callable[[PassResult], None]
-) -> Outcome:
-    said: Diagnostics = ()
-    for step in passes:
-        started = time.perf_counter()
-        made_next, diagnostics = step.run(request, made)
-        failed = has_errors(diagnostics) or getattr(made_next, step.adds) is None
-        said = (*said, *diagnostics)
-        watch(PassResult(step.name, made_next, diagnostics, time.perf_counter() - started, failed))
-        if failed:
-            return Outcome(made_next, said, step.name)
-        made = made_next
-    return Outcome(made, said, None)
-
-
-def _outside(request: Request) -> Outside:
+def outside_of(request: Request) -> Outside:
+    """What the compilation reads besides its own text: files, profiles, and what of them is known."""
     from xei_lang.inputs import Inputs, Outside
 
     own = Outside(Inputs(request.cache), Path(request.source.file), request.profile_folder)
@@ -168,7 +24,7 @@ def _outside(request: Request) -> Outside:
 
 def _parse(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
     """Text to `Module`."""
-    module, said = _outside(request).parse(request.source)
+    module, said = outside_of(request).parse(request.source)
     return replace(made, module=module), said
 
 
@@ -181,7 +37,7 @@ def _load_profile(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnosti
 
     assert made.module is not None
     named, library = profile_name(made.module), is_library(made.module)
-    profile, said = _outside(request).profile(named, library=library)
+    profile, said = outside_of(request).profile(named, library=library)
     return replace(made, profile=profile), said
 
 
@@ -193,7 +49,7 @@ def _check(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
 
     assert made.module is not None
     assert made.profile is not None
-    outside = _outside(request)
+    outside = outside_of(request)
     files = RecordedFiles(outside)
     options = CheckOptions(
         bindings=dict(request.bindings),
