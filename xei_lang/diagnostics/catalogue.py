@@ -247,6 +247,7 @@ _ENTRIES = {
     "XEI0867": Entry("a plan does not begin where the robot stands"),
     "XEI0868": Entry("a tool leaves the path that is stated for it"),
     "XEI0869": Entry("a tool is faster than it may be"),
+    "XEI0870": Entry("a body meets the wall or the bottom of what it goes into"),
     # 09xx running, bundles and traces
     "XEI0901": Entry("a run does not start from a scene origin of the profile"),
     "XEI0902": Entry("a plan names something that the world does not hold"),

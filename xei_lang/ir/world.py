@@ -9,13 +9,29 @@ from xei_lang.ir.tolerance import ToleranceKind
 
 
 @dataclass(frozen=True, slots=True)
+class Opening:
+    """A round hole straight into an object from a mouth in its outer surface: at the origin of
+    `T_object_mouth`, z out of it; `radius_m` is the inner radius, `depth_m` from the mouth to the bottom.
+
+    Of a grid this is the first hole; there are `counts` of them, `pitch_m` apart along x and y.
+    """
+
+    T_object_mouth: Pose
+    radius_m: float
+    depth_m: float
+    counts: tuple[int, int] = (1, 1)
+    pitch_m: tuple[float, float] = (0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
 class WorldObject:
     """An object that was grounded.
 
     `T_frame_object` places the object's frame (bottom centre, z up) in `frame_id`; `place` is the slot or
     spot that it stands in (`rack_1.slot("A1")`) or empty. `provenance` says, field by field, which source
     won. `fastened_to` names the object that it rides on (a cap on its bottle): wherever that goes, it goes
-    too. Empty for what stands free.
+    too. Empty for what stands free. `openings` are the holes that other things go into: all else of its
+    geometry is solid.
     """
 
     name: str
@@ -33,6 +49,7 @@ class WorldObject:
     metadata: tuple[tuple[str, str], ...] = ()
     provenance: tuple[tuple[str, str], ...] = ()
     fastened_to: str = ""
+    openings: tuple[Opening, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,6 +14,7 @@ from xei_lang.ir.world import World, WorldObject
 from xei_lang.profiles.grid import T_world_frame
 from xei_lang.profiles.model import LabObject, Profile
 from xei_lang.world.frames import frame_tree, start_state
+from xei_lang.world.openings import openings_of
 from xei_lang.world.places import place_text
 from xei_lang.world.sources.belief import OBJECT_REGISTRY, PRIOR, USAGE_PROFILE, beliefs, profile_source
 from xei_lang.world.sources.contradictions import Known, contradictions
@@ -48,7 +49,7 @@ def ground(profile: Profile, observed: tuple[Observations, ...] = ()) -> tuple[W
     if has_errors(tuple(found)):
         return None, tuple(found)
     state = start_state(profile)
-    objects = sorted((_grounded(one) for one in known), key=lambda item: item.name)
+    objects = sorted((_grounded(one, profile) for one in known), key=lambda item: item.name)
     sources = (*SOURCES, *(source.source for source in observed))
     return World(frame_tree(profile, state), tuple(objects), state, sources), tuple(found)
 
@@ -60,7 +61,7 @@ def static_frames(profile: Profile) -> Mapping[str, Pose]:
     return {name: pose for name, pose in found if pose is not None}
 
 
-def _grounded(one: Known) -> WorldObject:
+def _grounded(one: Known, profile: Profile) -> WorldObject:
     known, standing, item = one.belief, one.standing, one.belief.item
     moved_mm = f"{standing.moved_m * 1000:.1f}"
     moved = () if moved_mm == "0.0" else (("seen.moved_mm", moved_mm),)
@@ -80,6 +81,7 @@ def _grounded(one: Known) -> WorldObject:
         metadata=(*known.metadata, *moved),
         provenance=tuple(_provenance(one)),
         fastened_to=_carrier(one),
+        openings=openings_of(item, profile),
     )
 
 

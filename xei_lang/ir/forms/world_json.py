@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from xei_lang.ir.forms.canonical import Json
 from xei_lang.ir.forms.geometry_json import pose, primitive
-from xei_lang.ir.world import Drive, Frame, World, WorldObject
+from xei_lang.ir.world import Drive, Frame, Opening, World, WorldObject
 
 
 def to_json(world: World) -> dict[str, Json]:
@@ -62,4 +62,15 @@ def _object(item: WorldObject) -> dict[str, Json]:
         "metadata": dict(item.metadata),
         "provenance": dict(item.provenance),
         **({"fastened_to": item.fastened_to} if item.fastened_to else {}),
+        **({"openings": [_opening(one) for one in item.openings]} if item.openings else {}),
+    }
+
+
+def _opening(item: Opening) -> dict[str, Json]:
+    grid: dict[str, Json] = {"counts": list(item.counts), "pitch_m": list(item.pitch_m)}
+    return {
+        "T_object_mouth": pose(item.T_object_mouth),
+        "radius_m": item.radius_m,
+        "depth_m": item.depth_m,
+        **(grid if item.counts != (1, 1) else {}),
     }

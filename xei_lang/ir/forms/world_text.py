@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from xei_lang.ir.forms.pose_text import millimetres, pose_text
-from xei_lang.ir.world import Drive, Frame, RobotState, World, WorldObject
+from xei_lang.ir.world import Drive, Frame, Opening, RobotState, World, WorldObject
 
 
 def to_text(world: World) -> str:
@@ -46,11 +46,18 @@ def _object(item: WorldObject) -> str:
     shapes = f"{len(item.geometry)} shape{'s' if len(item.geometry) != 1 else ''}"
     lines.append(f"  {size} mm, {shapes}{_mass(item.mass_kg)}; confidence {item.confidence:g}")
     lines.append(f"  {'movable' if item.movable else 'fixed'}: {', '.join(item.roles) or 'no role'}")
+    lines.extend(f"  {_opening(one)}" for one in item.openings)
     if item.skills:
         lines.append(f"  skills: {', '.join(item.skills)}")
     lines.extend(f"  {name} = {value}" for name, value in (*item.states, *item.metadata))
     lines.extend(f"  {fields} from {source}" for source, fields in _by_source(item))
     return "\n".join(lines)
+
+
+def _opening(one: Opening) -> str:
+    count = one.counts[0] * one.counts[1]
+    size = f"{millimetres(2 * one.radius_m)} mm wide, {millimetres(one.depth_m)} mm deep"
+    return f"open: {count} holes {size}" if count > 1 else f"open: {size}"
 
 
 def _mass(mass_kg: float) -> str:

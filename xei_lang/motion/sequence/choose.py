@@ -48,7 +48,7 @@ class Speeds:
         return slowest
 
     def _of_joint(self, joint: int, distance: Array) -> Array:
-        velocity, acceleration = self.velocity[joint], self.acceleration[joint]
+        velocity, acceleration = float(self.velocity[joint]), float(self.acceleration[joint])
         short = 2.0 * np.sqrt(distance / acceleration)
         long = distance / velocity + velocity / acceleration
         fastest: Array = np.where(distance < velocity**2 / acceleration, short, long)

@@ -18,6 +18,7 @@ from xei_lang.ir.timed import TimedGoal
 from xei_lang.motion.verify.bodies import Bodies
 from xei_lang.motion.verify.context import Context
 from xei_lang.motion.verify.evaluate import Array
+from xei_lang.motion.verify.openings import Openings
 from xei_lang.motion.verify.pairs import Pairs, Rows
 from xei_lang.motion.verify.timeline import Phase
 
@@ -38,6 +39,7 @@ def check_clearance(context: Context) -> int:
     held = frozenset(h.object for phase in context.timeline.phases for h in phase.scene.held)
     bodies = Bodies(context.robot, context.about, context.world)
     pairs = Pairs(bodies, context.graph, held, context.about.srdf_text)
+    openings = Openings(context, bodies, pairs)
     measured, epoch = 0, -1
     for phase in context.timeline.phases:
         if phase.new_scene:
@@ -48,6 +50,7 @@ def check_clearance(context: Context) -> int:
             epoch = phase.scene.epoch
         if phase.moving:
             measured += _check_phase(context, bodies, pairs, phase)
+            openings.check(phase)
     return measured
 
 

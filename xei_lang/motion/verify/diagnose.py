@@ -30,6 +30,7 @@ CODES: Mapping[FindingKind, str] = {
     "start": "XEI0867",
     "tool_path": "XEI0868",
     "tool_speed": "XEI0869",
+    "opening": "XEI0870",
 }
 
 
@@ -59,4 +60,7 @@ def _measured(finding: Finding) -> str:
     if finding.kind == "collision":
         found, wanted = f"{finding.value * 1e3:.3g} mm", f"{finding.limit * 1e3:.3g} mm"
         return f"`{finding.subject}`: distance {found}, expected more than {wanted}"
+    if finding.kind == "opening":
+        found, wanted = f"{finding.value * 1e3:.2f} mm", f"{finding.limit * 1e3:.2f} mm"
+        return f"`{finding.subject}`: expected within {wanted}, found {found}"
     return f"`{finding.subject}`: expected {finding.limit:.6g}{unit}, found {finding.value:.6g}{unit}"

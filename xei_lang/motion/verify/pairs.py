@@ -84,12 +84,12 @@ class Pairs:
         wanted = self.eligible.copy()
         if len(phase.times) > 1:
             wanted &= (self.between & active).any(axis=1)
-        for pair in self._allowed(phase):
+        for pair in self.allowed(phase):
             if pair in self.row:
                 wanted[self.row[pair]] = False
         return np.flatnonzero(wanted)
 
-    def _allowed(self, phase: Phase) -> frozenset[Pair]:
+    def allowed(self, phase: Phase) -> frozenset[Pair]:
         """Contacts that both the plan and the graph allow to a goal that runs, a held object with its own
         fingers, and with what rides on it."""
         pairs: list[Pair] = []

@@ -26,6 +26,7 @@ FindingKind = Literal[
     "tool_speed",
     "tilt",
     "collision",
+    "opening",
     "attachment",
     "placement",
 ]
