@@ -41,6 +41,7 @@ from xei_lang.profiles.model import (
     ArgSpec,
     CalibratedFrame,
     Calibration,
+    Camera,
     LabObject,
     Placeholder,
     PlanningLimit,
@@ -258,6 +259,9 @@ def profile() -> Profile:
     )
     calibration = Calibration(
         frames=frames,
+        cameras=(
+            Camera("head", "camera", "placeholder", 920.0, 920.0, 640.0, 360.0, 1280, 720, (), (), SPAN),
+        ),
         limits=tuple(
             PlanningLimit(name, a, b, v, 10.0, 10.0, "rated", SPAN) for name, (a, b, v) in RANGES.items()
         ),

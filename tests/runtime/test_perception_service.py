@@ -181,13 +181,16 @@ OTHER = replace(bench(), objects=tuple(item for item in bench().objects if item.
         (lambda: of_desk(Desk(OTHER, MockBackend(truth()))), "pose service", "XEI0696"),
         (lambda: rogue(lambda handler, _: reply(handler, answers(objects=moved("rack_1", 2.0)))),
          "object pose", "XEI0697"),
+        (lambda: rogue(lambda handler, _: reply(handler, answers(objects=moved("table", 3.0)))),
+         "frame", "XEI0697"),
         (lambda: rogue(lambda handler, _: reply(handler, answers(objects=moved("rack_1", 0.05)))),
          "object pose", "XEI0697"),
         (lambda: rogue(lambda handler, _: reply(handler, answers(stamp_ns=STAMP_NS - 10**10))),
-         "object pose", "XEI0697"),
+         "frame", "XEI0697"),
     ],
     ids=["dead while it is asked", "garbage", "a stray key", "broken", "another request", "2 GB",
-         "another registry", "outside the workspace", "not in the picture", "an old picture"],
+         "another registry", "outside the workspace", "a table outside of it", "not in the picture",
+         "an old picture"],
 )  # fmt: skip
 def test_what_is_wrong_with_a_service_stops_the_run_and_is_named(
     seen: PoseRequest, service: Callable[[], AbstractContextManager[str]], what: str, code: str

@@ -72,7 +72,7 @@ def test_scene_setup_names_the_frames_and_bounds() -> None:
     scene = trace(handoffs())[1][0].representation
     assert scene["map_frame"] == "map"
     assert scene["table_frame"]["name"] == "table"
-    assert scene["camera"]["parent"] == "slide"
+    assert [(one["name"], one["frame"]["parent"]) for one in scene["cameras"]] == [("head", "slide")]
     assert scene["workspace_bounds_m"] == {
         "frame": "robot_base",
         "lower": [0.2, -0.85, 0.0],

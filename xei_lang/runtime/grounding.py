@@ -108,13 +108,18 @@ def _bodies(sight: _Sight) -> tuple[str, ...]:
 
 def _unreadable(sight: _Sight, said: Diagnostic) -> Grounded:
     help_ = said.help[0] if said.help else "record it again"
-    return sight.stop("scene file", "world_grounding", said.code, said.message, help_)
+    what = "pose service" if sight.source.startswith("pose_service") else "scene file"
+    return sight.stop(what, "world_grounding", said.code, said.message, help_)
 
 
 def _frame_doubt(sight: _Sight, found: Seen) -> Grounded | None:
     """Where the frame that was looked for is not where the plan has it before the base."""
     for name in _bodies(sight):
         seen = found.observations.find(name)
+        doubt = next((item for item in found.refused if item.name == name), None)
+        if doubt is not None and doubt.diagnostic().severity == "error":
+            code = doubt.diagnostic().code
+            return sight.stop("frame", doubt.representation, code, doubt.message, doubt.help)
         if seen is None or seen.T_frame_object is None:
             continue
         apart = frame_apart(sight.expected, sight.profile, sight.frame, seen, found.camera)

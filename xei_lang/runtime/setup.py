@@ -27,7 +27,10 @@ def scene(given: Handoffs, executor: str, speed: float) -> dict[str, Any]:
         "station": {"name": robot.station, "T_world_base": pose(robot.T_world_base)},
         "map_frame": calibration.map_frame,
         "table_frame": _frame(given, table),
-        "camera": _frame(given, "camera"),
+        "cameras": [
+            {"name": camera.name, "status": camera.status, "frame": _frame(given, camera.frame)}
+            for camera in calibration.cameras
+        ],
         "workspace_bounds_m": {"frame": "robot_base", "lower": list(lower), "upper": list(upper)},
         "placeholders": [found.item for found in calibration.placeholders],
     }
