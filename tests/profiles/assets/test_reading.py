@@ -190,14 +190,14 @@ def test_flat_meshes(name):
 
 def test_five_million_triangles_are_refused_before_they_are_read(monkeypatch):
     monkeypatch.setattr("xei_lang.profiles.assets.read_mesh._load", None)
-    count = 5_000_000
+    count, more = 5_000_000, structure.MAX_TRIANGLES + 1
     head = f"ply\nformat ascii 1.0\nelement vertex 9\nelement face {count}\nend_header\n".encode()
-    for name, data in (
-        ("a.stl", bytes(79) + b"x" + struct.pack("<I", count) + bytes(50 * count)),
-        ("a.obj", b"v 0 0 0\n" + b"f 1 2 3\n" * count),
-        ("a.ply", head),
+    for name, data, found in (
+        ("a.stl", bytes(79) + b"x" + struct.pack("<I", count) + bytes(50 * count), count),
+        ("a.obj", b"v 0 0 0\n" + b"f 1 2 3\n" * more, more),
+        ("a.ply", head, count),
     ):
-        assert read_mesh(data, name) == f"has {count} triangles, the limit is {structure.MAX_TRIANGLES}"
+        assert read_mesh(data, name) == f"has {found} triangles, the limit is {structure.MAX_TRIANGLES}"
     assert "which is the limit" in read_cloud(b"0 0 0\n" * (structure.MAX_POINTS + 1), "a.xyz")
     assert "the limit is" in read_cloud(pcd(CUP[0]).replace(b"POINTS 3", b"POINTS 99999999"), "a.pcd")
     assert "the limit is" in read_cloud(head.replace(b"vertex 9", b"vertex 2999999"), "a.ply")
@@ -251,3 +251,24 @@ def test_polygons_indices_from_the_end_and_parts_of_an_obj(faces):
     found = read_mesh((_PRISM + faces).encode(), "prism.obj")
     assert found.is_closed
     np.testing.assert_allclose(bounds(found), [(-1, -np.sqrt(3) / 2, 0), (1, np.sqrt(3) / 2, 2)])
+
+
+def test_thousands_of_parts_are_one_body_or_too_many():
+    """Each would be a body of its own to the library, which takes minutes for that."""
+    rows = "".join(f"g part_{n}\no body_{n}\nusemtl paint_{n}\n{row}" for n, row in enumerate(_triangles()))
+    assert read_mesh((_PRISM + rows * 40).encode(), "prism.obj").points.shape == (12, 3)
+    solid = stl_text(box(30.0, 20.0, 10.0))
+    assert isinstance(read_mesh(solid * 20, "a.stl"), Points)
+    many = read_mesh(solid * (structure.MAX_SOLIDS + 1), "a.stl")
+    assert many == f"has more than {structure.MAX_SOLIDS} solids, which is the limit"
+
+
+def _triangles():
+    for n in range(200):
+        yield f"f {n % 6 + 1} {(n + 1) % 6 + 1} {n % 6 + 7}\n"
+
+
+def test_a_header_that_tells_of_anything_in_billions_is_refused():
+    data = ply(CUP).replace(b"element face", b"element fringe 99999999999\nelement face")
+    assert "99999999999 of `fringe`" in read_mesh(data, "a.ply")
+    assert "99999999999 of `fringe`" in read_cloud(data, "a.ply")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import io
 import logging
+import re
 import warnings
 from pathlib import PurePosixPath
 from typing import Any
@@ -19,6 +20,7 @@ trimesh: Any = importlib.import_module("trimesh")  # its types are partial
 logging.getLogger("trimesh").addHandler(logging.NullHandler())
 
 MESHES = (".stl", ".obj", ".ply")
+_PARTS = re.compile(rb"^[ \t]*(g|o|usemtl|mtllib)\b.*$", re.M)
 _UNREAD = "string or file could not be read to its end"
 
 
@@ -60,6 +62,8 @@ def _mesh(data: bytes, suffix: str) -> Points:
 
 def _load(data: bytes, suffix: str) -> tuple[Array, NDArray[np.int64]]:
     """All vertices (n x 3) and triangles (m x 3) of a file. Raises UnreadableError."""
+    if suffix == ".obj":
+        data = _PARTS.sub(b"", data)  # a body is all its parts; thousands of them would take minutes
     try:
         with warnings.catch_warnings():
             warnings.filterwarnings("error", message=_UNREAD)

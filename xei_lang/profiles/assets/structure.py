@@ -9,6 +9,7 @@ from xei_lang.profiles.assets.points import UnreadableError
 
 MAX_TRIANGLES = 500_000
 MAX_POINTS = 1_000_000
+MAX_SOLIDS = 1_000
 
 _VERTEX = re.compile(rb"^[ \t]*vertex[ \t]", re.M)
 _LOOP = re.compile(rb"^[ \t]*(outer[ \t]+loop|endloop)\b", re.M)
@@ -56,6 +57,8 @@ def _stl(data: bytes) -> Claim:
 
 
 def _stl_text(text: bytes) -> Claim:
+    if text.count(b"endsolid") > MAX_SOLIDS:
+        raise UnreadableError(f"has more than {MAX_SOLIDS} solids, which is the limit")
     vertices, loops = len(_VERTEX.findall(text)), _LOOP.findall(text)
     closed = loops.count(b"endloop")
     if b"endsolid" not in text[text.rfind(b"endloop") + 1 :]:
@@ -89,6 +92,10 @@ def _ply(data: bytes) -> Claim:
         if words[:1] == ["element"]:
             if len(words) != 3 or not is_count(words[2]):
                 raise UnreadableError(f"has a header that cannot be read: `{line[:40]}`")
+            if words[1] not in counts and int(words[2]) > 3 * MAX_TRIANGLES:
+                raise UnreadableError(
+                    f"has {words[2]} of `{words[1][:40]}`, the limit is {3 * MAX_TRIANGLES}"
+                )
             counts[words[1]] = int(words[2])
     if not counts["vertex"]:
         raise UnreadableError("holds no points")
