@@ -72,6 +72,27 @@ def test_where_says_who_said_it_and_how_well_it_is_known(lab: Path):
     )
 
 
+def test_where_says_what_each_link_adds(lab: Path):
+    ran = xei("world", "where", "tube_1", cwd=lab)
+    docked = re.search(r"\n +robot_base +80 mm and 8.59 deg over [\d.]+ mm: bound of ([\d.]+) mm\n", ran.out)
+    table = re.search(r"\n +table +3 mm and 0.5 deg over [\d.]+ mm: bound of ([\d.]+) mm\n", ran.out)
+    whole = re.search(r"good to ([\d.]+) mm and", ran.out)
+    assert docked and table and whole
+    assert float(docked[1]) + float(table[1]) == pytest.approx(float(whole[1]), abs=0.15)
+
+
+def test_where_tells_of_frames_too(lab: Path):
+    camera = xei("world", "where", "camera", "--history", cwd=lab)
+    assert camera.code == 0
+    assert camera.out.startswith("camera, a frame\n  in slide: ")
+    assert "by robot_base > slide > camera, placeholder, good to 2 mm and 0.3 deg\n" in camera.out
+    assert camera.out.endswith("  never measured anew\n")
+    base = xei("world", "where", "robot_base", cwd=lab)
+    assert "docked at bench_a, good to 80 mm and 8.59 deg" in base.out
+    near = xei("world", "where", "camra", cwd=lab)
+    assert near.code == 2 and "did you mean `camera`?" in near.err
+
+
 def test_where_of_an_unknown_name_offers_a_near_one(lab: Path):
     ran = xei("world", "where", "tub_1", cwd=lab)
     assert ran.code == 2

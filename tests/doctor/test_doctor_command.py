@@ -61,3 +61,52 @@ def test_a_profile_that_is_not_there_is_told_with_those_that_are(lab: Path, name
 def test_quiet_leaves_the_exit_code(lab: Path) -> None:
     ran = xei("doctor", "--quiet", cwd=lab)
     assert (ran.code, ran.out, ran.err) == (1, "", "")
+
+
+LIDAR = """    status: placeholder
+    method: "measure the mount on the base's front deck"
+    tolerance: {position: 5 mm, rotation: 1 deg}
+"""
+JUMPED = """    status: measured
+    measured_on: "2026-11-20"
+    method: "measure the mount on the base's front deck"
+    tolerance: {position: 5 mm, rotation: 1 deg}
+    history:
+      - {measured_on: "2026-10-01", status: measured, position: [0.33 m, 0 m, 0.20 m],
+         tolerance: {position: 5 mm, rotation: 1 deg}, method: "with a ruler"}
+"""
+
+
+def test_a_jump_warns_and_stops_nothing(lab: Path) -> None:
+    file = lab / "profiles" / "lab" / "calibration_profile.yaml"
+    text = file.read_text(encoding="utf-8")
+    assert text.count(LIDAR) == 1
+    file.write_text(text.replace(LIDAR, JUMPED), encoding="utf-8")
+    ran = xei("doctor", "--format", "json", cwd=lab)
+    schema = json.loads(CliRunner().invoke(schema_command, ["doctor"]).output)
+    told = json.loads(ran.out)
+    jsonschema.Draft202012Validator(schema).validate(told)
+    (warning,) = told["warnings"]
+    assert warning["code"] == "XEI0669" and "`lidar` moved by 30.00 mm" in warning["message"]
+    assert "frames.lidar" not in {blocker["item"] for blocker in told["blockers"]}
+    assert "warning[XEI0669]" in ran.err
+    assert xei("doctor", "--quiet", cwd=lab).err == ""
+    where = xei("world", "where", "lidar", "--history", cwd=lab)
+    assert "measured on 2026-11-20, good to 5 mm and 1 deg" in where.out
+    assert "30.00 mm and 0.000 deg from what came after: more than both tolerances allow" in where.out
+
+
+def test_the_table_of_readiness_counts_the_blockers(lab: Path) -> None:
+    told = json.loads(xei("doctor", "--format", "json", cwd=lab).out)
+    stages = ["simulate", "strict", "hardware"]
+    for place, row in enumerate(told["readiness"]):
+        before = [one for one in told["blockers"] if stages.index(one["blocks"]) <= place]
+        assert (row["stage"], row["blockers"]) == (stages[place], len(before))
+        assert row["ready"] == (not before)
+        for name, count in row["by_representation"].items():
+            assert count == sum(one["representation"] == name for one in before)
+    for blocker in told["blockers"]:
+        file, item = blocker["write_to"].split(":")
+        assert blocker["file"] == f"profiles/lab/{file}"
+        line = (lab / blocker["file"]).read_text(encoding="utf-8").splitlines()[blocker["line"] - 1]
+        assert any(word in line for word in item.split(".")), blocker
