@@ -12,7 +12,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from tests.lower.hands import apart_m, body
-from tests.lower.plans import bench, moved, obj, spot, surface, with_object
+from tests.lower.plans import bench, moved, obj, spot, surface, with_object, with_skill
 from tests.lower.works import holding, step_of, work_of
 from xei_lang.ir.geometry import Box, Cylinder, Pose, Primitive
 from xei_lang.ir.goals import ToolTarget
@@ -54,12 +54,17 @@ def moved_by(target: ToolTarget) -> Pose:
     return Pose((x, y, z), target.T_base_reference.quaternion)
 
 
-@given(st.floats(-0.15, 0.15), st.floats(-0.15, 0.15), YAWS, st.floats(0.02, 0.065), SIDES)
+@given(st.floats(-0.15, 0.15), st.floats(-0.15, 0.15), YAWS, st.floats(0.02, 0.065), SIDES, st.booleans())
 @settings(max_examples=40, deadline=None)
 def test_a_lift_takes_the_object_out_of_its_slot_along_the_axis(
-    roll: float, pitch: float, yaw: float, depth_m: float, arm: Side
+    roll: float, pitch: float, yaw: float, depth_m: float, arm: Side, stated: bool
 ) -> None:
     profile, world = bench()
+    pick = profile.bank.skill("pick")
+    assert pick is not None
+    if not stated:
+        others = tuple(item for item in pick.parameters if item.name != "lift")
+        profile = with_skill(profile, replace(pick, parameters=others))
     rack = found(profile, "rack_1")
     assert rack.slots is not None
     profile = with_object(profile, "rack_1", replace(rack, slots=replace(rack.slots, depth_m=depth_m)))

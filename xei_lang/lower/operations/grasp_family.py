@@ -182,8 +182,8 @@ def _members(
 
 
 def _heights(request: Request, tilt: Tilt, drop_m: float, deepest_m: float) -> list[_Height]:
-    """Heights of the grasp point above the object's bottom that keep floor, palm and standoff, in the order
-    of their words.
+    """Heights of the grasp point above the object's bottom that keep floor, palm and standoff; highest first,
+    which is cheapest first.
     """
     top, half = request.height_m, request.closing.half_depth_m
     lowest = max(request.floor_m + request.clearance_m + drop_m, top - deepest_m)
@@ -194,7 +194,6 @@ def _heights(request: Request, tilt: Tilt, drop_m: float, deepest_m: float) -> l
         if standoff_m <= request.standoff_m + 1e-9:
             under = f", {(top - height) * 1000:.1f} mm under the top"
             found.append((under, (0.0, 0.0, height), 0.1 * (1.0 - height / top), standoff_m))
-    found.sort()
     return found
 
 
