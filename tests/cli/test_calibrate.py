@@ -164,7 +164,10 @@ def test_what_it_was_goes_to_the_history_and_a_jump_is_told(lab: Path) -> None:
     x_m = after.T_parent_frame.position_m[0]
     assert text.count(f"[{x_m:.6f} m") == 1
     file.write_text(text.replace(f"[{x_m:.6f} m", f"[{x_m + 0.004:.6f} m"), encoding="utf-8")
-    ran = xei("calibrate", "hand_eye.json", "--write", cwd=lab)
+    later = {**json.loads((lab / "hand_eye.json").read_text()), "recorded_on": "2026-12-25"}
+    (lab / "later.json").write_text(json.dumps(later), encoding="utf-8")
+    assert "XEI0687" in xei("calibrate", "hand_eye.json", "--write", cwd=lab).err, "it is of November"
+    ran = xei("calibrate", "later.json", "--write", cwd=lab)
     assert ran.code == 0
     assert re.search(r"warning\[XEI0669\]: `camera` moved by (3\.9|4\.0)\d mm", ran.err)
     told = xei("doctor", cwd=lab)

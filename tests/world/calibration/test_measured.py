@@ -69,6 +69,13 @@ def test_each_measurement_moves_the_one_before_it_to_the_head_of_the_history():
     assert text.count("\n      - {") == 3, "each entry has a line of its own"
 
 
+def test_an_older_recording_does_not_take_the_place_of_a_newer_one():
+    newer = put(BENCH)
+    older = put_in(Source("calibration_profile.yaml", newer), replace(MEASURED, measured_on="2026-11-19"))
+    assert isinstance(older, Diagnostic)
+    assert older.message == "the recording is of 2026-11-19, and `camera` was measured on 2026-11-20"
+
+
 def test_a_frame_that_hangs_elsewhere_by_now_is_left():
     moved = BENCH.replace("    parent: slide\n", "    parent: world\n", 1)
     found = put_in(Source("calibration_profile.yaml", moved), MEASURED)

@@ -71,7 +71,8 @@ class Measured:
 
 def put_in(source: Source, measured: Measured) -> str | Diagnostic:
     """The text of a calibration profile with this transform in the place of the present one, which becomes
-    the first of its history. A transform that stands there already changes nothing.
+    the first of its history. A transform that stands there already changes nothing; an older one does not
+    take the place of a newer one.
     """
     path = ("frames", measured.frame)
     present = plain_at(source, path)
@@ -85,6 +86,12 @@ def put_in(source: Source, measured: Measured) -> str | Diagnostic:
     now = {key: value for key, value in present.items() if key != "history"}
     if written is not None and written.find(path).plain() == now:
         return source.text
+    stands = str(present.get("measured_on") or "")
+    if measured.measured_on < stands:
+        message = (
+            f"the recording is of {measured.measured_on}, and `{measured.frame}` was measured on {stands}"
+        )
+        return _refused(source, message)
     former = {key: present[key] for key in _FORMER if key in present}
     text = edit(source, path, values, former if "status" in former else None)
     return text or _refused(source, f"the lines of `{measured.frame}` cannot be replaced for sure")
