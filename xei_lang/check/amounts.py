@@ -9,7 +9,8 @@ from xei_lang.check.report import Reporter
 from xei_lang.check.scope import Scope
 from xei_lang.check.state import State
 from xei_lang.check.types import Types
-from xei_lang.check.values import POISON, Interval, ObjectValue, Val, show
+from xei_lang.check.value_words import show
+from xei_lang.check.values import POISON, Interval, ObjectValue, Val
 from xei_lang.diagnostics import Label
 from xei_lang.profiles.model import ArgSpec
 from xei_lang.quantity import DimensionError, Quantity

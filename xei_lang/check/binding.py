@@ -17,13 +17,8 @@ from xei_lang.check.report import Reporter, listed, meant
 from xei_lang.check.scope import Scope
 from xei_lang.check.state import State
 from xei_lang.check.types import ANY_ARM, Types
-from xei_lang.check.values import (
-    POISON,
-    Interval,
-    Poison,
-    Val,
-    show,
-)
+from xei_lang.check.value_words import show
+from xei_lang.check.values import POISON, Interval, Poison, Val
 from xei_lang.diagnostics import Diagnostics, Label, Source, Sources, Span, did_you_mean
 from xei_lang.diagnostics.options import option_value
 from xei_lang.quantity import DimensionError

@@ -19,15 +19,8 @@ from xei_lang.check.state import State
 from xei_lang.check.transfers import Transfer, transfers_of
 from xei_lang.check.types import ANY_ARM, Types
 from xei_lang.check.units import Unit
-from xei_lang.check.values import (
-    POISON,
-    ObjectValue,
-    PlaceValue,
-    Val,
-    Word,
-    show,
-    to_plan,
-)
+from xei_lang.check.value_words import show
+from xei_lang.check.values import POISON, ObjectValue, PlaceValue, Val, Word, to_plan
 from xei_lang.diagnostics import Span
 from xei_lang.ir.skill_plan import Argument, Value
 from xei_lang.profiles.model import ArgSpec, SkillSpec

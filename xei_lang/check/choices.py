@@ -9,7 +9,8 @@ from xei_lang.check.plan_builder import Where
 from xei_lang.check.run_time import negated
 from xei_lang.check.scope import Scope
 from xei_lang.check.state import EITHER, State
-from xei_lang.check.values import POISON, Poison, Undecided, kind, show
+from xei_lang.check.value_words import kind, show
+from xei_lang.check.values import POISON, Poison, Undecided
 from xei_lang.diagnostics import Label, Span
 from xei_lang.ir.skill_plan import Condition, ObjectRef, Value
 from xei_lang.syntax.ast import Block, Expression, If, Step

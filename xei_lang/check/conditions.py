@@ -18,7 +18,8 @@ from xei_lang.check.report import listed, meant
 from xei_lang.check.run_time import needs_of
 from xei_lang.check.scope import Scope
 from xei_lang.check.state import NOTHING
-from xei_lang.check.values import POISON, ObjectValue, PlaceValue, Undecided, Val, Word, show
+from xei_lang.check.value_words import show
+from xei_lang.check.values import POISON, ObjectValue, PlaceValue, Undecided, Val, Word
 from xei_lang.diagnostics import Label, did_you_mean
 from xei_lang.ir.skill_plan import Argument, ObjectRef, PlaceRef, Value
 from xei_lang.syntax.ast import CallExpr, Name, Require

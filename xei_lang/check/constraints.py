@@ -14,7 +14,8 @@ from xei_lang.check.run_time import known_now, needs_of
 from xei_lang.check.scope import Scope
 from xei_lang.check.state import State
 from xei_lang.check.types import Types
-from xei_lang.check.values import POISON, Interval, Val, nominal, show
+from xei_lang.check.value_words import show
+from xei_lang.check.values import POISON, Interval, Val, nominal
 from xei_lang.ir.skill_plan import TimeConstraint
 from xei_lang.quantity import Quantity
 from xei_lang.syntax.ast import After, Clause, Expression, Within

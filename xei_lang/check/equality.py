@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterable
 
 from xei_lang.check import arithmetic
 from xei_lang.check.run_time import needs_of
-from xei_lang.check.values import ListValue, OpenPose, RecordValue, Val, Word, show
+from xei_lang.check.value_words import show
+from xei_lang.check.values import ListValue, OpenPose, RecordValue, Val, Word
 from xei_lang.ir.skill_plan import PoseIn
 from xei_lang.quantity import DimensionError
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping
 
 from xei_lang.check import (
@@ -14,26 +13,19 @@ from xei_lang.check import (
     loops,
     measure,
     overlap,
-    procedures,
 )
-from xei_lang.check.calls import CheckedCall
 from xei_lang.check.context import Context
-from xei_lang.check.effects import apply_effects, resources_of
+from xei_lang.check.declarations import declare
 from xei_lang.check.labels import Labels
 from xei_lang.check.nominal import Nominal, Read
 from xei_lang.check.paths import label_of, step_names
+from xei_lang.check.perform import call_skill, confirm, wait
 from xei_lang.check.plan_builder import PlanBuilder, Where
-from xei_lang.check.run_time import needs_of
 from xei_lang.check.scope import Scope
 from xei_lang.check.state import State
-from xei_lang.check.transfers import apply_transfers
 from xei_lang.check.unpack import unpack
 from xei_lang.check.until import repeat_until
-from xei_lang.check.values import Interval, nominal, to_plan
 from xei_lang.diagnostics import Span
-from xei_lang.ir.skill_plan import Argument, StepKind
-from xei_lang.profiles.instruments import OWNER, instrument_of, work_duration_s
-from xei_lang.quantity import Quantity
 from xei_lang.syntax.ast import (
     Await,
     Block,
@@ -41,8 +33,6 @@ from xei_lang.syntax.ast import (
     Confirm,
     Do,
     For,
-    Given,
-    GivenContains,
     If,
     Keep,
     Leave,
@@ -50,12 +40,9 @@ from xei_lang.syntax.ast import (
     Measure,
     Member,
     Note,
-    ObjectDecl,
     Parallel,
-    Param,
     Pause,
     Procedure,
-    ProfileDecl,
     Repeat,
     Require,
     Start,
@@ -91,7 +78,7 @@ class Expander:
         self.alone = False
         context.evaluator.nominal = Nominal(self)
         self._names: dict[Span, Mapping[Span, str]] = {}
-        self._resources: dict[tuple[object, ...], tuple[str, ...]] = {}
+        self.resources: dict[tuple[object, ...], tuple[str, ...]] = {}
 
     @property
     def stopped(self) -> bool:
@@ -141,32 +128,7 @@ class Expander:
             case Require():
                 conditions.require(self, member, scope, where)
             case _:
-                self._declaration(member, scope, where)
-
-    def _declaration(self, member: Member, scope: Scope, where: Where) -> None:
-        match member:
-            case Param():
-                self._param(member, scope, where)
-            case ObjectDecl():
-                self.context.binder.object(member, scope, self.state)
-            case Given() | GivenContains() if where.origin:
-                self._misplaced(member.span, "what is given is said by the protocol, not by a procedure")
-            case Given():
-                self.context.givens.given(member, scope, self.state)
-            case GivenContains():
-                self.context.givens.contains(member, scope, self.state)
-            case ProfileDecl() if where.origin:
-                self._misplaced(member.span, "a profile is named by the protocol, not by a procedure")
-            case _:
-                pass
-
-    def _param(self, member: Param, scope: Scope, where: Where) -> None:
-        if where.origin:
-            self._misplaced(member.span, "a procedure declares its parameters in parentheses after its name")
-        self.context.binder.param(member, scope, self.state)
-
-    def _misplaced(self, span: Span, message: str) -> None:
-        self.context.reporter.report("XEI0212", message, span, "not allowed inside a procedure")
+                declare(self, member, scope, where)
 
     def _step(self, step: Step, scope: Scope, where: Where) -> None:
         before, label = len(self.plan.steps), label_of(step)
@@ -190,22 +152,11 @@ class Expander:
         action = step.action
         match action:
             case Call():
-                self._call(step, action, scope, where)
+                call_skill(self, step, action, scope, where)
             case Wait():
-                self._wait(step, action, scope, where)
+                wait(self, step, action, scope, where)
             case Confirm():
-                text = Argument("text", action.text.value, "String", "call", action.text.span)
-                facts = self.state.facts()
-                self.plan.add(
-                    step,
-                    "confirm",
-                    where,
-                    facts,
-                    owner="person",
-                    args=(text,),
-                    duration_s=(0.0, math.inf),
-                    resources=("person",),
-                )
+                confirm(self, step, action, where)
             case Do():
                 self.named_block(step, action.body, scope, where)
             case For():
@@ -240,59 +191,3 @@ class Expander:
         else:
             self.block(block, scope, where.under(f"{where.path(step)}.", self.names_of(block)))
             self.labels.close_named(step.label.id)
-
-    def _call(self, step: Step, call: Call, scope: Scope, where: Where) -> None:
-        name = call.callee.id
-        procedure = self.context.procedure(call.callee)
-        if procedure is not None and name not in self.context.registry.skills:
-            procedures.inline(self, step, call, procedure, scope=scope, where=where)
-            return
-        checked = self.context.calls.check(call, scope, self.state)
-        if checked is None:
-            return
-        if checked.moves_nothing:
-            self.plan.skip(call.callee.span, where.path(step))
-            return
-        self.perform(step, checked, where)
-
-    def perform(
-        self,
-        step: Step,
-        checked: CheckedCall,
-        where: Where,
-        kind: StepKind = "skill",
-        also: tuple[Argument, ...] = (),
-    ) -> None:
-        """Add the step of a skill, with arguments besides the skill's own, and do what it brings about."""
-        values = checked.values
-        skill = checked.skill
-        key = (
-            skill.name,
-            instrument_of(skill, values),
-            *(str(values[spec.name]) for spec in skill.args if spec.type == "Arm" and spec.name in values),
-        )
-        if key not in self._resources:
-            self._resources[key] = resources_of(skill, values)
-        self.plan.add(
-            step,
-            kind,
-            where,
-            self.state.facts(),
-            skill=skill.name,
-            owner=skill.owner,
-            args=(*checked.arguments, *also),
-            duration_s=work_duration_s(skill, values) if skill.owner == OWNER else skill.duration_s,
-            resources=self._resources[key],
-        )
-        apply_effects(checked.effects, values, self.state)
-        if checked.transfers:
-            apply_transfers(checked.transfers, checked.given, self.state, skill.name, checked.span)
-
-    def _wait(self, step: Step, action: Wait, scope: Scope, where: Where) -> None:
-        value = self.context.clauses.time(action.duration, "`wait`", scope, self.state)
-        value = value if needs_of(value) else nominal(value)
-        low, high = (value.lower, value.upper) if isinstance(value, Interval) else (value, value)
-        if not isinstance(low, Quantity) or not isinstance(high, Quantity):
-            return
-        argument = Argument("duration", to_plan(value), "Time", "call", action.duration.span)
-        self.plan.add(step, "wait", where, self.state.facts(), args=(argument,), duration_s=(low.si, high.si))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from xei_lang.check.values import a
+from xei_lang.check.value_words import a
 from xei_lang.diagnostics import Span
 from xei_lang.record import Shown, record
 from xei_lang.syntax.ast import TypeExpr

@@ -10,7 +10,8 @@ from xei_lang.check import arithmetic
 from xei_lang.check.budget import Budget
 from xei_lang.check.rearrange import chunks, pairs, products, shuffled
 from xei_lang.check.report import Reporter, guess, meant
-from xei_lang.check.values import POISON, Interval, ListValue, ObjectValue, Val, a, kind, nominal
+from xei_lang.check.value_words import a, kind
+from xei_lang.check.values import POISON, Interval, ListValue, ObjectValue, Val, nominal
 from xei_lang.diagnostics import Edit, Fix, Span, did_you_mean
 from xei_lang.quantity import DimensionError, Quantity
 from xei_lang.syntax.ast import CallExpr, Name, Number

@@ -10,17 +10,8 @@ from xei_lang.check.report import Reporter, guess, listed, meant, replace
 from xei_lang.check.scope import Scope
 from xei_lang.check.state import NOTHING, State
 from xei_lang.check.types import Types
-from xei_lang.check.values import (
-    POISON,
-    Interval,
-    ObjectValue,
-    Poison,
-    Val,
-    Word,
-    nominal,
-    show,
-    to_plan,
-)
+from xei_lang.check.value_words import show
+from xei_lang.check.values import POISON, Interval, ObjectValue, Poison, Val, Word, nominal, to_plan
 from xei_lang.check.volumes import WRONG, Amount
 from xei_lang.diagnostics import Label, Span, did_you_mean
 from xei_lang.ir.skill_plan import ObjectRef

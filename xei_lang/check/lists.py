@@ -14,16 +14,8 @@ from xei_lang.check.run_time import known_now
 from xei_lang.check.scope import Scope
 from xei_lang.check.unpack import unpack
 from xei_lang.check.value_habits import NO_MEND, slot_of
-from xei_lang.check.values import (
-    POISON,
-    ListValue,
-    Numeric,
-    ObjectValue,
-    Val,
-    kind,
-    nominal,
-    show,
-)
+from xei_lang.check.value_words import kind, show
+from xei_lang.check.values import POISON, ListValue, Numeric, ObjectValue, Val, nominal
 from xei_lang.diagnostics import Span
 from xei_lang.quantity import DimensionError, Quantity
 from xei_lang.syntax.ast import Comprehension, Expression, Index, Name, Range

@@ -12,7 +12,8 @@ from xei_lang.check.plan_builder import Where
 from xei_lang.check.run_time import known_now
 from xei_lang.check.scope import Scope
 from xei_lang.check.unpack import unpack
-from xei_lang.check.values import POISON, Val, kind, nominal, show
+from xei_lang.check.value_words import kind, show
+from xei_lang.check.values import POISON, Val, nominal
 from xei_lang.diagnostics import Span
 from xei_lang.syntax.ast import Call, CallExpr, For, If, Let, Name, Repeat, Step, walk
 

@@ -11,10 +11,12 @@ from typing import TYPE_CHECKING
 from xei_lang.check import arithmetic
 from xei_lang.check.declared import declared_expectation
 from xei_lang.check.expectation import Expectation
+from xei_lang.check.perform import perform
 from xei_lang.check.plan_builder import Where
 from xei_lang.check.report import listed
 from xei_lang.check.scope import Scope
-from xei_lang.check.values import POISON, Interval, Numeric, Poison, Val, number, show, to_plan
+from xei_lang.check.value_words import show
+from xei_lang.check.values import POISON, Interval, Numeric, Poison, Val, number, to_plan
 from xei_lang.diagnostics import Label, Span
 from xei_lang.ir.skill_plan import Argument, Value
 from xei_lang.profiles.model import ReturnSpec, SkillSpec
@@ -55,7 +57,7 @@ def measure(expander: Expander, step: Step, node: Measure, scope: Scope, where: 
         also = tuple(
             Argument(name, _typed(end, expected.type), expected.type, source, at) for name, end in ends
         )
-        expander.perform(step, checked, where, "measure", also)
+        perform(expander, step, checked, where, "measure", also)
     value: Val = POISON
     if bounds is not None and len(expander.plan.steps) > before:
         made = expander.plan.steps[-1].step_id

@@ -12,7 +12,8 @@ from xei_lang.check.registry import Registry
 from xei_lang.check.report import Reporter, guess, listed, meant
 from xei_lang.check.scope import Scope
 from xei_lang.check.value_habits import NO_MEND, slot_of, state_of, unquoted_key
-from xei_lang.check.values import POISON, ListValue, ObjectValue, RecordValue, TableValue, Val, kind, show
+from xei_lang.check.value_words import kind, show
+from xei_lang.check.values import POISON, ListValue, ObjectValue, RecordValue, TableValue, Val
 from xei_lang.diagnostics import did_you_mean
 from xei_lang.syntax.ast import Attr, CallExpr, Name
 

@@ -14,18 +14,8 @@ from xei_lang.check.names import ANY_WORD
 from xei_lang.check.report import Reporter
 from xei_lang.check.run_time import MAX_FORMULA, formula_of, joined, needs_of, negated
 from xei_lang.check.scope import Scope
-from xei_lang.check.values import (
-    POISON,
-    Interval,
-    ObjectValue,
-    PlaceValue,
-    Undecided,
-    Val,
-    Word,
-    a,
-    kind,
-    show,
-)
+from xei_lang.check.value_words import a, kind, show
+from xei_lang.check.values import POISON, Interval, ObjectValue, PlaceValue, Undecided, Val, Word
 from xei_lang.diagnostics import Label
 from xei_lang.quantity import DimensionError, Quantity
 from xei_lang.syntax.ast import Attr, Binary, BoolOp, CallExpr, Compare, Expression, Unary

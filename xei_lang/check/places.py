@@ -6,7 +6,8 @@ from typing import Literal
 
 from xei_lang.check.expectation import Expectation
 from xei_lang.check.report import Reporter, guess, listed, meant
-from xei_lang.check.values import POISON, ListValue, ObjectValue, PlaceValue, Val, show
+from xei_lang.check.value_words import show
+from xei_lang.check.values import POISON, ListValue, ObjectValue, PlaceValue, Val
 from xei_lang.diagnostics import Span, did_you_mean
 from xei_lang.profiles.grid import slot_keys
 from xei_lang.profiles.model import LabObject, SlotGrid

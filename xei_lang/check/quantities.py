@@ -7,7 +7,8 @@ from fractions import Fraction
 from xei_lang.check.expectation import Expectation
 from xei_lang.check.report import Reporter, replace
 from xei_lang.check.value_habits import NO_MEND, Mend
-from xei_lang.check.values import POISON, Interval, Val, a, kind, show
+from xei_lang.check.value_words import a, kind, show
+from xei_lang.check.values import POISON, Interval, Val
 from xei_lang.diagnostics import Applicability
 from xei_lang.quantity import TYPE_DIMENSIONS, UNITS, Quantity, quantity
 from xei_lang.quantity.dimension import Dimension

@@ -9,7 +9,8 @@ from __future__ import annotations
 from fractions import Fraction
 
 from xei_lang.check.report import Reporter
-from xei_lang.check.values import POISON, Interval, Undecided, Val, show
+from xei_lang.check.value_words import show
+from xei_lang.check.values import POISON, Interval, Undecided, Val
 from xei_lang.diagnostics import Span
 from xei_lang.quantity import Quantity
 from xei_lang.quantity.text import format_magnitude

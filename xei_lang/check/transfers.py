@@ -8,7 +8,8 @@ from typing import Literal
 
 from xei_lang.check import arithmetic
 from xei_lang.check.state import State
-from xei_lang.check.values import POISON, ListValue, ObjectValue, Val, number, show
+from xei_lang.check.value_words import show
+from xei_lang.check.values import POISON, ListValue, ObjectValue, Val, number
 from xei_lang.check.volumes import NEVER_SAID, WRONG
 from xei_lang.diagnostics import Label, Span
 from xei_lang.profiles.model import SkillSpec

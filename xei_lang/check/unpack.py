@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from xei_lang.check.report import Reporter
 from xei_lang.check.scope import Scope, SymbolKind
-from xei_lang.check.values import POISON, ListValue, RecordValue, Val, kind
+from xei_lang.check.value_words import kind
+from xei_lang.check.values import POISON, ListValue, RecordValue, Val
 from xei_lang.diagnostics import Label, Span
 from xei_lang.syntax.ast import Name
 

@@ -15,8 +15,8 @@ from tests.check.checking import plan_of
 from tests.check.test_properties import RICH
 from xei_lang.diagnostics import Source
 from xei_lang.ir.forms import plan_json
+from xei_lang.ir.forms.json_reader import read_json
 from xei_lang.ir.forms.json_schema import ANNOTATIONS, KEYWORDS, pointer_text, violations
-from xei_lang.ir.forms.json_tree import read_json
 
 SCHEMA = json.loads(Path(plan_json.__file__).with_name("plan.schema.json").read_text(encoding="utf-8"))
 PLAN = plan_json.to_json(plan_of(RICH), {})

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from xei_lang.diagnostics import Source, Span
 from xei_lang.ir.forms import plan_json
 from xei_lang.ir.forms.canonical import dumps
-from xei_lang.ir.forms.json_tree import read_json
+from xei_lang.ir.forms.json_reader import read_json
 from xei_lang.ir.forms.plan_read import plan_from_json
 from xei_lang.ir.skill_plan import (
     Argument,

@@ -24,8 +24,9 @@ from xei_lang.check.plan_file.works import check_works
 from xei_lang.check.report import Reporter
 from xei_lang.diagnostics import Diagnostics, Source, Sources, Span, has_errors
 from xei_lang.ir import forms
+from xei_lang.ir.forms.json_reader import read_json
 from xei_lang.ir.forms.json_schema import Pointer, Violation, violations
-from xei_lang.ir.forms.json_tree import JsonNode, read_json
+from xei_lang.ir.forms.json_tree import JsonNode
 from xei_lang.ir.forms.plan_read import ArgumentType, plan_from_json
 from xei_lang.ir.skill_plan import SkillPlan
 from xei_lang.profiles.model import Profile
