@@ -43,8 +43,8 @@ class _Entry:
 
 
 class Openings:
-    """Looks at phase after phase. `loose` are objects that no hand has held yet: what stands a little off its
-    hole from the start comes out as it stands, which is the world's fault and not the plan's.
+    """Looks at phase after phase. `moved` are the objects that a hand has held: what stood a little off its
+    hole before that comes out as it stands, which is the world's fault and not the plan's.
     """
 
     def __init__(self, context: Context, bodies: Bodies, pairs: Pairs) -> None:
@@ -56,7 +56,7 @@ class Openings:
     def check(self, phase: Phase) -> None:
         """Look at all pairs that are allowed to touch and of which one may be in the other."""
         for a, b in sorted(self.pairs.allowed(phase)):
-            if (a, b) in self.pairs.row and a in self.objects and self._is_moving(phase, (a, b)):
+            if (a, b) in self.pairs.row and a in self.objects and self._goes_in(phase, (a, b)):
                 rows = self._looks(phase, self.pairs.row[a, b])
                 few = replace(
                     phase, times=phase.times[rows], q=phase.q[rows], v=phase.v[rows], a=phase.a[rows]
@@ -73,12 +73,14 @@ class Openings:
         wanted = np.searchsorted(moved, np.arange(0.0, float(moved[-1]), STEP_M))
         return np.unique([*wanted.tolist(), len(moved) - 1])
 
-    def _is_moving(self, phase: Phase, pair: Pair) -> bool:
-        openings = any(self.objects[name].openings for name in pair)
-        solid = all(self.objects[name].geometry for name in pair)
-        carriers = [self.pairs.carriers.get(name) for name in pair]
-        links = [None if held is None else held.link for held in carriers]
-        return openings and solid and links[0] != links[1] and bool(phase.moving)
+    def _goes_in(self, phase: Phase, pair: Pair) -> bool:
+        """Whether a hand moves one of the pair against the other, and that one has openings. What is set down
+        on a thing without any rests there.
+        """
+        carriers = self.pairs.carriers
+        links = [None if (held := carriers.get(name)) is None else held.link for name in pair]
+        entered = any(self.objects[host].openings and guest in carriers for host, guest in (pair, pair[::-1]))
+        return entered and links[0] != links[1] and bool(phase.moving)
 
     def _check_pair(self, phase: Phase, pair: Pair) -> None:
         """Two shapes may overlap where one is in the other's opening: most often what the hand holds."""
@@ -148,7 +150,7 @@ class Openings:
         return _Entry(guest, host, opening, Inside(radius, depth), excess)
 
     def _overlaps(self, phase: Phase, pair: Pair, shapes: tuple[int, int], row: int) -> bool:
-        """Whether the one shape is in the other at all, and not beside it."""
+        """Whether the one shape is in the other, and not beside it or on it."""
         (a, b), (i, j) = pair, shapes
         if (a, b) not in self.pairs.row:
             (a, b), (i, j) = (b, a), (j, i)
