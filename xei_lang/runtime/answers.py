@@ -29,7 +29,10 @@ class Answers:
 def parse_answers(text: str, file: str) -> tuple[Mapping[str, bool], Diagnostics]:
     """The answers of a JSON object such as `{"confirm#1": true}`; diagnostics where it is none."""
     try:
-        value: Any = json.loads(text)
+        value: Any = json.loads(text, object_pairs_hook=_once)
+    except _TwiceError as error:
+        message = f"`{error.args[0]}` is answered twice"
+        return {}, (Diagnostic("XEI0916", message, help=("keep the answer that holds",)),)
     except json.JSONDecodeError as error:
         span = Span(file, error.pos, min(error.pos + 1, len(text)))
         return {}, (Diagnostic("XEI0916", f"`{file}` is not JSON", span, label=error.msg.lower()),)
@@ -43,6 +46,17 @@ def parse_answers(text: str, file: str) -> tuple[Mapping[str, bool], Diagnostics
         message = f"the answer to `{wrong[0]}` is neither true nor false"
         return {}, (Diagnostic("XEI0916", message, help=(_EXAMPLE,)),)
     return answers, ()
+
+
+class _TwiceError(Exception):
+    """A key that stands twice; never leaves this module."""
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    for index, (key, _) in enumerate(pairs):
+        if any(key == earlier for earlier, _ in pairs[:index]):
+            raise _TwiceError(key)
+    return dict(pairs)
 
 
 _EXAMPLE = 'write an object of step ids or questions, as in `{"confirm#1": true}`'

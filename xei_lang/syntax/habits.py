@@ -99,6 +99,11 @@ def _assignment(before: Sequence[Token], token: Token, text: str) -> Habit | Non
         return Habit(message, "no assignment can stand here", name.start, token.end, help_)
     if earlier is not None and earlier.text in _CONDITIONS:
         return Habit("`=` compares nothing", "expected `==`", token.start, token.end, ("write `==`",), "==")
+    if earlier is not None and earlier.text == "measure":
+        help_ = (f"say what it measures: `measure {name.text}: Temperature = ...`",)
+        return Habit(
+            f"`{name.text}` is measured without a type", "expected `:`", name.start, token.end, help_
+        )
     begins = earlier is None or earlier.text in "{}" or "\n" in text[earlier.end : name.start]
     return Habit(
         f"`{name.text}` is given a value without `let`",

@@ -42,7 +42,9 @@ def http_fault(url: str, reply: Reply) -> ServiceFault:
         help_ = "look at what it says itself"
         return ServiceFault("failed", f"{where} failed with status {reply.status}{said}", help_)
     if reply.status in (401, 403):
-        return ServiceFault("rejected", f"{where} wants a token{said}", "give the file of its token")
+        return ServiceFault(
+            "rejected", f"{where} wants a token{said}", "give the file of its token: `--token-file FILE`"
+        )
     message = f"{where} refuses what it was asked, with status {reply.status}{said}"
     return ServiceFault("rejected", message, "compare its contract with `xei schema pose_request`")
 
