@@ -28,7 +28,7 @@ NOT_REACHED = {
     "XEI0680", "XEI0681", "XEI0682", "XEI0683", "XEI0684", "XEI0685", "XEI0686", "XEI0687", "XEI0688",
     "XEI0690", "XEI0691", "XEI0692", "XEI0693", "XEI0694",
     "XEI0695", "XEI0696", "XEI0697", "XEI0698", "XEI0699",
-    "XEI0705", "XEI0711", "XEI0715", "XEI0727",
+    "XEI0705", "XEI0711", "XEI0715",
 }  # fmt: skip
 """Codes before the motion whose example is no protocol on this bench: each page says why."""
 

@@ -37,6 +37,8 @@ def test_the_skill_bank_is_the_one_that_protocols_are_written_for():
         "run_by_output": ["device", "output", "time"],
         "run_by_screen": ["device", "screen", "element", "time", "arm"],
         "read": ["device", "wavelength"],
+        "twist_open": ["object", "hold", "twist"],
+        "twist_close": ["object", "hold", "twist"],
     }
     assert all(skill.exposed and skill.phrases and skill.process for skill in bench().bank.skills)
 

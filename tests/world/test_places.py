@@ -35,7 +35,7 @@ def test_what_has_no_slots_has_none():
     table = bench().object("table")
     assert table is not None
     assert places.slots(table) == places.row(table, "A") == places.column(table, 1) == ()
-    assert keys(places.spots(table)) == ["bottle", "beaker", "mixing", "front", "cradle"]
+    assert keys(places.spots(table)) == ["bottle", "beaker", "mixing", "front", "cradle", "reagent"]
 
 
 @pytest.mark.parametrize("key", ["", "A", "A0", "A5", "A01", "A-1", "A1 ", "D1", "a1", "1A", "A\u0661"])

@@ -27,7 +27,7 @@ from xei_lang.profiles.model import ArgSpec, SkillSpec
 from xei_lang.quantity import Quantity, QuantityError, parse_quantity
 from xei_lang.record import Shown, record
 from xei_lang.syntax.ast import Arg, Call, Expression
-from xei_lang.world.places import accepts, place_text
+from xei_lang.world.places import accepting, accepts, place_text
 
 
 @record
@@ -198,14 +198,14 @@ class Calls:
     def _refused(self, thing: ObjectValue, place: PlaceValue, arg: Arg) -> None:
         assert thing.registered is not None
         assert place.owner.registered is not None
-        grid = place.owner.registered.slots
+        stated = accepting(place.owner.registered, place.ref)
         self._reporter.report(
             "XEI0310",
             f"`{place_text(place.ref)}` does not accept `{thing.name}`",
             arg.value.span,
-            f"accepts {listed(grid.accepts if grid else ())}; "
+            f"accepts {listed(stated.accepts if stated else ())}; "
             f"`{thing.name}` has the roles {', '.join(thing.registered.roles)}",
-            notes=(self._reporter.rule(grid.span),) if grid else (),
+            notes=(self._reporter.rule(stated.span),) if stated else (),
         )
 
 

@@ -8,6 +8,7 @@ from typing import get_args
 from xei_lang.diagnostics import Label
 from xei_lang.ir.goals import Attach, Detach, Grip, MoveTo, Parameter, PathKind, in_hand
 from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, Side
+from xei_lang.lower.build_leave import LEAVING, leave
 from xei_lang.lower.build_path import PATH_FIELDS, Speed, Way, speed_of, way_of
 from xei_lang.lower.carry import states_of, to_carry_poses, to_configuration
 from xei_lang.lower.draft import Builder, Draft, contacts
@@ -16,6 +17,8 @@ from xei_lang.lower.operations import Aim, Planned, operation_of_point
 from xei_lang.lower.operations.grasp import GRASP
 from xei_lang.lower.operations.handover import TAKE
 from xei_lang.lower.operations.place import PLACE
+from xei_lang.lower.operations.steady import STEADY
+from xei_lang.lower.operations.twist import CAP
 from xei_lang.lower.parameters import ROUNDING_M
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.riders import carrier_at
@@ -24,6 +27,7 @@ from xei_lang.lower.task import Task, refuse_template
 from xei_lang.lower.walk import Held, Standing
 from xei_lang.profiles.model import TemplateStep
 
+_TAKING = (GRASP, TAKE, STEADY, CAP)
 _PATHS: tuple[PathKind, ...] = get_args(PathKind)
 
 
@@ -53,14 +57,14 @@ def _move_to_configuration(task: Task, line: TemplateStep, path: PathKind, speed
     upright, fraction = line.field("keep") == "upright", speed.fraction
     drafts = (
         *to_carry_poses(states, task.scene, task.profile, task.step.span, fraction),
-        *to_configuration(states, task.scene, side, path, upright, fraction),
+        *to_configuration(states, task.scene, task.profile, side, path, upright, fraction),
     )
     return tuple(replace(draft, parameters=(*draft.parameters, *speed.told)) for draft in drafts)
 
 
 def _move_to_point(task: Task, line: TemplateStep, path: PathKind, speed: Speed) -> Draft:
     at = str(line.field("at") or "")
-    argument, _, point = at.partition(".")
+    argument, _, point = at.rpartition(".")
     operation = operation_of_point(point)
     if operation is None or line.field("tool") is None:
         refuse_template(
@@ -73,6 +77,7 @@ def _move_to_point(task: Task, line: TemplateStep, path: PathKind, speed: Speed)
     aim, way = planned.aims[point], way_of(task, line, path, arm)
     before = task.scene
     after = before.touch(arm, aim.support, aim.entered).reach(arm, aim.around)
+    after = after.hold_at(arm, aim.T_world_held)
     uses = tuple(planned.settings[name].provenance() for name in aim.uses if name in planned.settings)
     allowed = contacts(before.reach(arm, ""), after.reach(arm, ""), arm if path == "free" else None)
     if aim.fingertips and path != "free":
@@ -154,14 +159,15 @@ def _attach(task: Task, line: TemplateStep) -> Draft:
     arm, argument = task.arm(line.field("arm"), line), str(line.field("object"))
     subject = task.argument(argument)
     planned = next(
-        (plan for taking in (GRASP, TAKE) if (plan := task.plans.get((taking.name, argument, arm)))), None
+        (plan for taking in _TAKING if (plan := task.plans.get((taking.name, argument, arm)))), None
     )
     if not isinstance(subject, ObjectRef) or planned is None or planned.family is None:
         refuse_template(
             line, f"`{argument}` was not grasped before `attach`", "expected `move_to` its grasp first"
         )
-    standing = task.scene.standing.get(subject.name)
-    T_world_object = standing.T_world_object if standing else planned.T_world_placed
+    standing, carrier = task.scene.standing.get(subject.name), task.scene.carrier_of(subject.name)
+    known = standing is not None or carrier != ""
+    T_world_object = task.scene.T_world_of(subject.name) if known else planned.T_world_placed
     assert T_world_object is not None
     held = Held(
         subject.name,
@@ -171,7 +177,7 @@ def _attach(task: Task, line: TemplateStep) -> Draft:
         planned.settings["standoff"].si("Length"),
         planned.settings["grasp_width"].si("Length"),
         planned.floor_m,
-        standing.support if standing else "",
+        standing.support if standing else carrier,
         Label(task.step.span, f"`{subject.name}` is picked up here"),
     )
     after = task.scene.attach(arm, held)
@@ -183,6 +189,8 @@ def _detach(task: Task, line: TemplateStep) -> Draft:
     arm, argument = task.arm(line.field("arm"), line), str(line.field("at"))
     if argument in task.arms:
         return _hand_over(task, line, arm, task.arm(argument, line))
+    if argument.partition(".")[2] in LEAVING:
+        return leave(task, line, arm, argument)
     ref, planned = task.argument(argument), _place_plan(task, line, argument, arm)
     if not isinstance(ref, PlaceRef) or planned.T_world_placed is None:
         refuse_template(line, f"`{argument}` is not a place", "expected an argument of type Place")

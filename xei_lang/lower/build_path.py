@@ -125,7 +125,7 @@ def _signed(task: Task, line: TemplateStep, field: str, arm: Side) -> tuple[Sett
 
 
 def _planned(task: Task, line: TemplateStep, field: str, arm: Side) -> tuple[Planned, str]:
-    argument, _, name = str(line.field(field)).partition(".")
+    argument, _, name = str(line.field(field)).rpartition(".")
     operation: Operation | None = operation_of_axis(name) if field == "axis" else operation_of_area(name)
     if operation is None:
         refuse_template(

@@ -1,7 +1,8 @@
 """Named configurations and hands that hold something.
 
 A named configuration turns the hands as it likes, and what is open would be spilled. So it is for empty hands
-only: an arm that holds an object goes to its carry pose instead, upright all the way.
+only: an arm that holds an object goes to its carry pose instead, upright all the way. A cap holds nothing: it
+may be tilted.
 """
 
 from __future__ import annotations
@@ -23,16 +24,25 @@ def states_of(profile: Profile, name: str, side: Side | None) -> tuple[NamedStat
     return states if side is None else tuple(state for state in states if state.group == f"{side}_arm")
 
 
-def holding(states: tuple[NamedState, ...], scene: Scene) -> tuple[Side, ...]:
-    """The arms among the states' groups whose hands hold something."""
+def holding(states: tuple[NamedState, ...], scene: Scene, profile: Profile) -> tuple[Side, ...]:
+    """The arms among the states' groups whose hands hold something that may not be tilted."""
     return tuple(
-        side for side in SIDES if side in scene.held and any(item.group == f"{side}_arm" for item in states)
+        side
+        for side in SIDES
+        if side in scene.held and not _is_cap(profile, scene.held[side].object)
+        if any(item.group == f"{side}_arm" for item in states)
     )
+
+
+def _is_cap(profile: Profile, name: str) -> bool:
+    known = profile.object(name)
+    return known is not None and known.thread is not None
 
 
 def to_configuration(
     states: tuple[NamedState, ...],
     scene: Scene,
+    profile: Profile,
     side: Side | None = None,
     path: PathKind = "free",
     keep_upright: bool = False,
@@ -43,7 +53,7 @@ def to_configuration(
 
     The target is the union of the groups' states, and each group is a resource.
     """
-    busy = tuple(f"{arm}_arm" for arm in holding(states, scene))
+    busy = tuple(f"{arm}_arm" for arm in holding(states, scene, profile))
     left = tuple(state for state in states if state.group not in busy)
     if not left:
         return ()
@@ -62,7 +72,8 @@ def to_carry_poses(
     words that ask for the configuration.
     """
     return tuple(
-        _carry(arm, states[0].name, scene, profile, span, speed_fraction) for arm in holding(states, scene)
+        _carry(arm, states[0].name, scene, profile, span, speed_fraction)
+        for arm in holding(states, scene, profile)
     )
 
 

@@ -37,5 +37,8 @@ def refuse_fastened(operation: Operation, work: Work) -> None:
         work.span,
         f"fastened on `{carrier}`, and comes off by its thread alone",
         (Label(thread.span, "its thread is stated here"),) if thread else (),
-        help=(f"unscrew it: `twist_open(object={carrier})`", f"or pick `{carrier}`, which takes it along"),
+        help=(
+            f"unscrew it: `twist_open(object={carrier}, hold=left, twist=right)`",
+            f"or pick `{carrier}`, which takes it along",
+        ),
     )

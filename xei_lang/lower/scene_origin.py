@@ -61,4 +61,4 @@ def _arms_ready(scene: Scene, profile: Profile, station: SceneOrigin) -> tuple[D
             "needed before this station is worked at",
             notes=(f"rule: {profile.bank.srdf}",),
         )
-    return to_configuration(states, scene)
+    return to_configuration(states, scene, profile)

@@ -12,6 +12,7 @@ from xei_lang.diagnostics import Span
 from xei_lang.ir.goals import Family, Parameter
 from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, Side, StationRef, Step, Value
 from xei_lang.lower.arms import Choice, Destination
+from xei_lang.lower.derived import cap_meant, leads_to
 from xei_lang.lower.hand import SIDES
 from xei_lang.lower.operations import OPERATIONS, Operation, Planned, Work, operation_of_point
 from xei_lang.lower.parameters import Layers, Setting, layers_of
@@ -47,12 +48,12 @@ class Task:
         return layers_of(self.step, self.spec, self.profile.object(subject or self.object))
 
     def argument(self, name: str) -> Value | None:
-        """The value of an argument of the step, or None."""
-        return self.step.arg(name)
+        """The value of an argument of the step, or what one leads to (`object.cap`), or None."""
+        return leads_to(self.profile, self.step, self.span_of(name), name)
 
     def span_of(self, name: str) -> Span:
         """The user's words for an argument; the whole step where the skill bank supplied it."""
-        found = next((item for item in self.step.args if item.name == name), None)
+        found = next((item for item in self.step.args if item.name == name.partition(".")[0]), None)
         return found.span if found and found.source == "call" else self.step.span
 
     def arm(self, name: object, line: TemplateStep) -> Side:
@@ -79,7 +80,7 @@ class Task:
     def planned(self, operation: Operation, argument: str, arm: Side, line: TemplateStep) -> Planned:
         """The operation's plan on an argument, made at its first mention in the template."""
         key = (operation.name, argument, arm)
-        if key not in self.plans:
+        if key not in self.plans or operation.fresh:
             work = self._work(argument, arm, line)
             refuse_fastened(operation, work)
             planned = operation.plan(work)
@@ -96,7 +97,8 @@ class Task:
             refuse_template(
                 line, f"`{argument}` has no points of an operation", "expected an object or a Place"
             )
-        name = subject.name if isinstance(subject, ObjectRef) else self.object
+        cap = cap_meant(self.profile, self.step, argument)
+        name = subject.name if isinstance(subject, ObjectRef) else cap or self.object
         return Work(
             self.profile,
             self.scene,
@@ -105,7 +107,7 @@ class Task:
             subject,
             self.span_of(argument),
             arm,
-            self.object,
+            cap or self.object,
             tuple(item.place for item in self.ahead),
             f"{self.step.step_id}.{name}",
         )
@@ -140,7 +142,7 @@ class Task:
     def _subject_of(self, operation: Operation) -> str | None:
         """The argument that the template uses the operation's points on, or None where it does not."""
         for line in self.spec.template:
-            argument, _, point = str(line.field("at") or "").partition(".")
+            argument, _, point = str(line.field("at") or "").rpartition(".")
             if operation_of_point(point) is operation:
                 return argument
         return None

@@ -62,7 +62,8 @@ def times(task: Task, repeat: Repeat, line: TemplateStep) -> int:
     arms = tuple(task.arms.values())
     setting = task.setting(repeat.times, arms[0].arm if len(arms) == 1 else None, line)
     value = setting.si("Fraction")
-    if value != round(value) or not 1 <= value <= MOST_TIMES:
+    least = 0 if setting.source == "computed" else 1
+    if value != round(value) or not least <= value <= MOST_TIMES:
         refuse(
             "XEI0702",
             f"`{setting.name}` of {setting.text} is no number of times",

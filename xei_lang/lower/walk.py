@@ -52,6 +52,7 @@ class Held:
 
     `sunk_m` is how deep it stood in its slot. `touching` names the support that it has not left yet, or
     reaches at the end of a linear move; empty in the air. `entered` names what it has gone into.
+    `T_world_now` is where it is held still in the air, for what is worked on it there.
     """
 
     object: str
@@ -64,6 +65,7 @@ class Held:
     touching: str
     since: Label
     entered: tuple[str, ...] = ()
+    T_world_now: Pose | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,6 +93,18 @@ class Scene:
     def T_base_object(self, name: str) -> Pose:
         """Pose of a standing object in the base frame of this epoch. Raises KeyError for one in a hand."""
         return self.in_base(self.standing[name].T_world_object)
+
+    def T_world_of(self, name: str) -> Pose:
+        """Pose of an object that stands, is held still, or rides on such a one. KeyError for any other."""
+        if name in self.standing:
+            return self.standing[name].T_world_object
+        if name in self.riding:
+            rider = self.riding[name]
+            return self.T_world_of(rider.standing.support) @ rider.T_carrier_rider
+        held = next((item for item in self.held.values() if item.object == name), None)
+        if held is None:
+            raise KeyError(name)
+        return held.T_world_now or held.T_world_grasped
 
     def in_base(self, T_world_x: Pose) -> Pose:
         """A pose of `world` in the base frame of this epoch."""
@@ -150,6 +164,21 @@ class Scene:
             stands[name] = replace(rider.standing, T_world_object=T_world_rider)
         riding = {name: item for name, item in self.riding.items() if name not in stands}
         return replace(self, held=held, standing=stands, riding=riding)
+
+    def fasten(self, side: Side, rider: Standing) -> Scene:
+        """The hand leaves its object on one that stands or is held, on which it rides from then on."""
+        held = {key: item for key, item in self.held.items() if key != side}
+        if rider.support in self.standing:
+            return replace(self, held=held, standing={**self.standing, rider.object: rider})
+        there = self.T_world_of(rider.support).inverse() @ rider.T_world_object
+        return replace(self, held=held, riding={**self.riding, rider.object: Rider(there, rider)})
+
+    def hold_at(self, side: Side, T_world_object: Pose | None) -> Scene:
+        """What the hand holds is there now, and held still (None: on its way)."""
+        if side not in self.held:
+            return self
+        held = replace(self.held[side], T_world_now=T_world_object)
+        return replace(self, held={**self.held, side: held})
 
     def let_go(self, side: Side) -> Scene:
         """The hand leaves its object to the other one, which holds it too."""

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-import re
 
 from xei_lang.diagnostics import Diagnostic
 from xei_lang.ir.geometry import Box, Cylinder, Pose, Primitive, Shape, Vec3
 from xei_lang.profiles.build_assets import AssetReader, read_assets
+from xei_lang.profiles.build_thread import build_thread, named_place
 from xei_lang.profiles.model import (
     Element,
     FiniteState,
@@ -25,7 +25,6 @@ from xei_lang.profiles.yaml_tree import Node, Path
 from xei_lang.quantity import Quantity
 
 _KINDS = ("box", "cylinder", "mesh", "point_cloud")
-_PLACE = re.compile(r"([a-z][a-z0-9_]*)\.(slot|spot)\(\s*\"([^\"]+)\"\s*\)")
 
 
 def build_object(
@@ -37,7 +36,8 @@ def build_object(
     shape = shaped.shape if shaped else None
     parts = _parts(model, shape, root, path, found)
     prior = _prior(model.prior, root, (*path, "prior"), found) if model.prior else None
-    if shaped is None or shape is None or parts is None:
+    thread, is_threaded = build_thread(model.thread, root, (*path, "thread"), found)
+    if shaped is None or shape is None or parts is None or not is_threaded:
         return None
     return LabObject(
         name=str(path[-1]),
@@ -53,11 +53,12 @@ def build_object(
         grasp=operation_defaults(model.grasp, root, (*path, "grasp")),
         slots=_slots(model, root, path),
         spots=tuple(
-            Spot(key, pose(spot.position, spot.rpy), root.key_span(*path, "spots", key))
+            Spot(key, pose(spot.position, spot.rpy), root.key_span(*path, "spots", key), tuple(spot.accepts))
             for key, spot in model.spots.items()
         ),
         elements=_elements(model, root, path),
         tip=_tip(model, root, path),
+        thread=thread,
         prior=prior,
         assets=shaped.named,
         models=shaped.models,
@@ -193,20 +194,11 @@ def _prior(model: PriorModel, root: Node, path: Path, found: list[Diagnostic]) -
         assert model.frame is not None
         where = root.span_of(*path, "frame")
         return Prior("", "", model.frame, pose(model.position, model.rpy), model.confidence, where)
-    match = _PLACE.fullmatch(model.in_.strip())
     where = root.span_of(*path, "in")
-    if match is None:
-        found.append(
-            Diagnostic(
-                "XEI0609",
-                f"`{model.in_}` is not a place",
-                where,
-                label="expected a slot or a spot",
-                help=("""write for example 'rack_1.slot("A1")' or 'table.spot("bottle")'""",),
-            )
-        )
+    place = named_place(model.in_, where, found)
+    if place is None:
         return None
-    kind = "slot" if match[2] == "slot" else "spot"
+    holder, kind, key = place
     yaw = vec3(model.rpy)[2] if model.rpy else 0.0
     turned = Pose.from_rpy((0.0, 0.0, 0.0), (0.0, 0.0, math.remainder(yaw, math.tau)))
-    return Prior(match[1], match[3], "", turned, model.confidence, where, kind)
+    return Prior(holder, key, "", turned, model.confidence, where, kind)

@@ -9,7 +9,7 @@ from xei_lang.diagnostics import did_you_mean
 from xei_lang.ir.geometry import Pose
 from xei_lang.ir.skill_plan import PlaceRef
 from xei_lang.profiles import grid as grids
-from xei_lang.profiles.model import LabObject, Profile
+from xei_lang.profiles.model import LabObject, Profile, SlotGrid, Spot
 
 
 def place_text(place: PlaceRef) -> str:
@@ -91,13 +91,21 @@ def initial_occupant(profile: Profile, place: PlaceRef) -> str | None:
     return next((item.name for item in profile.objects if initial_place(item) == place), None)
 
 
+def accepting(item: LabObject, place: PlaceRef) -> SlotGrid | Spot | None:
+    """What states which roles a place takes: the grid of a slot, the spot; None for a whole surface."""
+    if place.kind == "slot":
+        return item.slots
+    return next((spot for spot in item.spots if place.kind == "spot" and spot.name == place.key), None)
+
+
 def accepts(item: LabObject, place: PlaceRef, roles: tuple[str, ...]) -> bool:
-    """Whether a place takes an object of these roles: a slot asks for one of its `accepts`, other places for
-    nothing.
+    """Whether a place takes an object of these roles: a slot asks for one of its `accepts`, and so does a
+    spot that states any; a whole surface asks for nothing.
     """
-    if place.kind != "slot" or item.slots is None:
+    stated = accepting(item, place)
+    if stated is None or (place.kind == "spot" and not stated.accepts):
         return True
-    return any(role in item.slots.accepts for role in roles)
+    return any(role in stated.accepts for role in roles)
 
 
 def _slot(item: LabObject, key: str) -> PlaceRef:

@@ -41,6 +41,7 @@ TUBE, BEAKER, PIPETTE, SCREEN = (
     obj(name) for name in ("tube_1", "beaker_1", "pipette_1", "incubator_screen")
 )
 SOURCE, HOLE, FRONT = obj("beaker_3"), slot("rack_2", "A1"), spot("table", "front")
+BOTTLE, CAP = obj("bottle_2"), obj("bottle_2_cap")
 TIP = slot("tip_box_1", "B2")
 DRAW: Args = {"pipette": PIPETTE, "volume": parse_quantity("200 uL")}
 AREA: Args = {"length": parse_quantity("100 mm"), "width": parse_quantity("180 mm")}
@@ -62,6 +63,9 @@ WORKS: dict[str, Callable[[], Work]] = {
     "tip": on("attach_tip", {"pipette": PIPETTE, "tip": TIP}, TIP, "pipette_1"),
     "aspirate": on("aspirate", {**DRAW, "source": SOURCE}, SOURCE, "pipette_1"),
     "dispense": on("dispense", {**DRAW, "target": BEAKER}, BEAKER, "pipette_1"),
+    "steady": on("twist_open", {"object": BOTTLE}, BOTTLE, "bottle_2", hand=""),
+    "cap": on("twist_open", {"object": BOTTLE}, CAP, "bottle_2_cap", hand=""),
+    "thread": on("twist_open", {"object": BOTTLE}, CAP, "bottle_2_cap", hand=""),
     "eject": on("eject_tip", {"pipette": PIPETTE, "waste": obj("waste_bin")}, obj("waste_bin"), "pipette_1"),
 }
 
@@ -94,11 +98,17 @@ RANGES: dict[str, tuple[int, int, str]] = {
     "aspirate_time": (1, 60, "s"),
     "dispense_time": (1, 60, "s"),
     "eject_height": (5, 60, "mm"),
+    "hold_width": (40, 60, "mm"),
+    "hold_open_width": (60, 80, "mm"),
+    "twist_slide": (0, 600, "mm"),
+    "cap_width": (20, 40, "mm"),
+    "cap_open_width": (40, 80, "mm"),
+    "cap_depth": (3, 20, "mm"),
 }  # fmt: skip
 """Values that every operation with the parameter takes."""
 
-FACTS = {"tool_point", "shake_swing"}
-"""What nobody may write: it follows from the pipette's profile, or from another parameter."""
+FACTS = {"tool_point", "shake_swing", "lead", "stroke_angle", "more_strokes"}
+"""What nobody may write: it follows from the profile of a pipette or a cap, or from another parameter."""
 
 PARAMETERS = [
     (item.name, name)

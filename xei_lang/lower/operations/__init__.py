@@ -12,8 +12,10 @@ from xei_lang.lower.operations.invert import INVERT, SHAKE
 from xei_lang.lower.operations.lift import LIFT
 from xei_lang.lower.operations.place import PLACE
 from xei_lang.lower.operations.pour import POUR
+from xei_lang.lower.operations.steady import STEADY
 from xei_lang.lower.operations.tap import SWIPE, TAP
 from xei_lang.lower.operations.tip import EJECT, TIP
+from xei_lang.lower.operations.twist import CAP, THREAD
 from xei_lang.lower.operations.wipe import WIPE
 
 OPERATIONS: tuple[Operation, ...] = (
@@ -32,6 +34,9 @@ OPERATIONS: tuple[Operation, ...] = (
     ASPIRATE,
     DISPENSE,
     EJECT,
+    STEADY,
+    CAP,
+    THREAD,
 )
 
 

@@ -10,7 +10,7 @@ from xei_lang.ir.geometry import Pose, Vec3
 from xei_lang.ir.goals import Family, ToolTarget
 from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, Side, Step
 from xei_lang.lower.parameters import Layers, Setting
-from xei_lang.lower.walk import Scene
+from xei_lang.lower.walk import Scene, Standing
 from xei_lang.profiles.model import Profile
 from xei_lang.record import Record, record
 
@@ -43,7 +43,8 @@ class Aim(Record):
     `support` is what the held object may touch once it is there; `around` is the object that the open jaws
     then enclose; `fingertips` is what the fingers themselves may touch on the way there or away; `entered`
     is what the held object goes into there, and may touch until it has come out again. With `slide_stays` the
-    other arm, which rides on the slide too, is not moved.
+    other arm, which rides on the slide too, is not moved. `T_world_held` is where the held object then is,
+    where something is worked on it there.
     """
 
     target: ToolTarget
@@ -53,6 +54,7 @@ class Aim(Record):
     fingertips: str = ""
     entered: tuple[str, ...] = ()
     slide_stays: bool = False
+    T_world_held: Pose | None = None
 
 
 @record
@@ -79,7 +81,8 @@ class Planned(Record):
     """The outcome: resolved settings and aims by name; the family of a grasp; for a place, where the object
     ends; axes and areas by name.
 
-    `floor_m` is how deep the object stands in what carries it (from its bottom).
+    `floor_m` is how deep the object stands in what carries it (from its bottom); `stood` is how it stood
+    before it was taken, to be set down there again.
     """
 
     settings: Mapping[str, Setting]
@@ -89,12 +92,13 @@ class Planned(Record):
     floor_m: float = 0.0
     axes: Mapping[str, Axis] = field(default_factory=dict[str, Axis])
     areas: Mapping[str, Area] = field(default_factory=dict[str, Area])
+    stood: Standing | None = None
 
 
 @record
 class Operation(Record):
     """A deterministic planner with the points and parameters that templates may name of it, and the axes and
-    areas of its stated paths.
+    areas of its stated paths. A `fresh` one plans anew, from the scene by then, wherever it is named.
     """
 
     name: str
@@ -103,3 +107,4 @@ class Operation(Record):
     plan: Callable[[Work], Planned]
     axes: tuple[str, ...] = ()
     areas: tuple[str, ...] = ()
+    fresh: bool = False

@@ -19,7 +19,7 @@ from xei_lang.lower.refusal import refuse
 from xei_lang.lower.seats import Seat, place_text, seat_of
 from xei_lang.lower.walk import Held
 from xei_lang.profiles.model import LabObject, SlotGrid
-from xei_lang.world.places import accepts
+from xei_lang.world.places import accepting, accepts
 
 _DEFAULT_CLEARANCE_M = 0.004
 
@@ -34,6 +34,7 @@ def plan(work: Work) -> Planned:
     seat = _seat(work, work.subject)
     assert known is not None
     _refuse_occupied(work, seat, held)
+    _refuse_stranger(work, seat, known)
     if seat.grid is not None:
         _refuse_unfit(work, seat, seat.grid, known)
     depth = _insertion_depth(work, seat)
@@ -96,18 +97,23 @@ def _refuse_occupied(work: Work, seat: Seat, held: Held) -> None:
         )
 
 
-def _refuse_unfit(work: Work, seat: Seat, grid: SlotGrid, known: LabObject) -> None:
+def _refuse_stranger(work: Work, seat: Seat, known: LabObject) -> None:
     host = work.profile.object(seat.ref.object)
-    assert host is not None
+    stated = accepting(host, seat.ref) if host else None
+    if host is None or stated is None or accepts(host, seat.ref, known.roles):
+        return
+    where = f"the {seat.ref.kind}{'s are' if seat.ref.kind == 'slot' else ' is'} stated here"
+    refuse(
+        "XEI0705",
+        f"`{seat.text}` does not accept `{known.name}`",
+        work.span,
+        f"accepts {' or '.join(stated.accepts)}; `{known.name}` is {', '.join(known.roles)}",
+        (Label(stated.span, where), Label(known.span, "the object is stated here")),
+    )
+
+
+def _refuse_unfit(work: Work, seat: Seat, grid: SlotGrid, known: LabObject) -> None:
     label = (Label(grid.span, "the slots are stated here"), Label(known.span, "the object is stated here"))
-    if not accepts(host, seat.ref, known.roles):
-        refuse(
-            "XEI0705",
-            f"`{seat.text}` does not accept `{known.name}`",
-            work.span,
-            f"accepts {' or '.join(grid.accepts)}; `{known.name}` is {', '.join(known.roles)}",
-            label,
-        )
     width = max(known.size_m[0], known.size_m[1])
     if isinstance(known.shape, Box):
         width = (known.size_m[0] ** 2 + known.size_m[1] ** 2) ** 0.5

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from xei_lang.ir.goals import Detach, Grip, JointTarget, MotionGoal, MoveTo, NavToPose
+from xei_lang.ir.goals import Detach, Grip, JointTarget, MotionGoal, MoveTo, NavToPose, SlideMove
 from xei_lang.ir.skill_plan import Side
 from xei_lang.motion.sequence.choose import Array
 from xei_lang.motion.sequence.context import Context
@@ -93,9 +93,12 @@ def _passed(context: Context, goal: MotionGoal, now: Snapshot) -> Snapshot:
     if isinstance(action, Detach):
         return left(context, action, action.T_base_object, now)
     target = _named(goal)
+    q = now.q.copy()
+    if isinstance(action, SlideMove):
+        q[context.robot.slide_index] = action.height_m
+        return now.moved(q)
     if target is None:
         return now
-    q = now.q.copy()
     for joint, value in target.joints:
         q[context.robot.joint_names.index(joint)] = value
     return now.moved(q)

@@ -166,10 +166,9 @@ def left(context: Context, action: Detach, T_base_object: Pose, before: Snapshot
     """The state after a hand has let go, what it let go of fastened where the action says so."""
     if not action.fastened_to:
         return before.detached(action.arm, T_base_object)
-    # A carrier in a hand whose grasp is not chosen yet is nowhere, and its riders with it.
-    T_base_carrier = where(context, action.fastened_to, before) or T_base_object
-    ride = Ride(action.fastened_to, T_base_carrier.inverse() @ T_base_object)
-    return before.detached(action.arm, T_base_object, ride)
+    T_base_carrier = where(context, action.fastened_to, before)
+    there = T_base_carrier.inverse() @ T_base_object if T_base_carrier else seat(context, action)
+    return before.detached(action.arm, T_base_object, Ride(action.fastened_to, there))
 
 
 def still(goal: MotionGoal, before: Snapshot, duration_s: float | None = None) -> Motion:
@@ -182,6 +181,17 @@ def take(context: Context, chain: Chain, action: Attach, target: int, member: in
     T_base_reference = chain.targets[target].T_base_reference
     T_base_object = where(context, action.object, before) or T_base_reference
     return Held(action.object, chain.family, member, T_base_reference.inverse() @ T_base_object)
+
+
+def seat(context: Context, action: Detach) -> Pose:
+    """Where a rider sits on what it is fastened to, screwed on to its end, as the profile says: for a carrier
+    in a hand of which is not known yet where it is.
+    """
+    rider, carrier = (context.profile.object(name) for name in (action.object, action.fastened_to))
+    if rider is None or rider.thread is None or carrier is None:
+        return Pose()
+    key = rider.thread.on_key
+    return next((spot.T_object_spot for spot in carrier.spots if spot.name == key), Pose())
 
 
 def where(context: Context, name: str, before: Snapshot) -> Pose | None:

@@ -135,7 +135,7 @@ def _layers(
     layers: list[Layer] = []
     for rehearsal in rehearsals:
         chain = rehearsal.chain
-        tried = heights if chain.slide_free else heights[:1]
+        tried = heights if chain.slide_free else rehearsal.before.q[[context.robot.slide_index]]
         if goes_on(chain) and not layers:
             layer = onward_layer(context, chain, start)
         else:

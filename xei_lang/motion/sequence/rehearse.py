@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from xei_lang.ir.goals import Attach, Detach, Grip, MotionGoal, MoveTo
 from xei_lang.motion.sequence.context import Context
-from xei_lang.motion.sequence.enact import left, take
+from xei_lang.motion.sequence.enact import left, seat, take
 from xei_lang.motion.sequence.sections import Chain, Group
-from xei_lang.motion.sequence.snapshot import UNCHOSEN, Snapshot
+from xei_lang.motion.sequence.snapshot import UNCHOSEN, Ride, Snapshot
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,8 +44,15 @@ def rehearse(context: Context, chain: Chain, before: Snapshot) -> Rehearsal:
         elif isinstance(action, Attach):
             now = now.attached(action.arm, take(context, chain, action, len(moments) - 1, UNCHOSEN, now))
         elif isinstance(action, Detach) and action.arm in now.held:
-            now = left(context, action, action.T_base_object, now)
+            now = _left(context, action, now)
     return Rehearsal(chain, before, tuple(moments), now)
+
+
+def _left(context: Context, action: Detach, now: Snapshot) -> Snapshot:
+    """What is let go of; on a carrier in a hand it sits where it will: where that hand is is not known."""
+    if action.fastened_to and now.holders(action.fastened_to):
+        return now.detached(action.arm, action.T_base_object, Ride(action.fastened_to, seat(context, action)))
+    return left(context, action, action.T_base_object, now)
 
 
 def rehearse_group(context: Context, group: Group, before: Snapshot) -> tuple[Rehearsal, ...]:

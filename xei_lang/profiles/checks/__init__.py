@@ -17,6 +17,7 @@ from xei_lang.profiles.checks.quantities import check_quantities
 from xei_lang.profiles.checks.rules import check_rules
 from xei_lang.profiles.checks.skills import check_skills
 from xei_lang.profiles.checks.template_order import check_template_order
+from xei_lang.profiles.checks.threads import check_threads
 from xei_lang.profiles.checks.tips import check_tips
 from xei_lang.profiles.checks.unused import check_unused
 from xei_lang.profiles.model import Profile
@@ -39,5 +40,6 @@ def check_profile(profile: Profile, trees: Trees) -> Diagnostics:
         *check_priors(profile),
         *check_geometry(profile, trees),
         *check_tips(profile),
+        *check_threads(profile, trees),
     )
     return found if has_errors(found) else (*found, *check_overlap(profile))

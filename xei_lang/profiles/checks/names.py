@@ -16,15 +16,23 @@ OPERATION_PARAMETERS = (
     "approach_height",
     "approach_speed",
     "aspirate_time",
+    "cap_depth",
+    "cap_lift",
+    "cap_open_width",
+    "cap_width",
     "dispense_time",
     "eject_height",
     "fill",
     "grasp_depth",
     "grasp_width",
+    "hold_open_width",
+    "hold_width",
     "insertion_depth",
     "jaw_clearance",
     "lane_pitch",
+    "lead",
     "lift",
+    "more_strokes",
     "open_width",
     "pour_angle",
     "pour_clearance",
@@ -35,11 +43,14 @@ OPERATION_PARAMETERS = (
     "rim_clearance",
     "shake_swing",
     "standoff",
+    "stroke",
+    "stroke_angle",
     "swipe_standoff",
     "tap_standoff",
     "tip_depth",
     "tip_height",
     "tool_point",
+    "twist_slide",
     "wipe_height",
 )
 """What the planner of operations computes; a skill bank may add its own under `parameters`."""
@@ -66,6 +77,11 @@ def check_names(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
             if role not in roles:
                 span = trees.of_object(item, "slots", "accepts", index)
                 yield unknown("a role of any object", role, roles, span)
+        for spot in item.spots:
+            for index, role in enumerate(spot.accepts):
+                if role not in roles:
+                    span = trees.of_object(item, "spots", spot.name, "accepts", index)
+                    yield unknown("a role of any object", role, roles, span)
         for default in item.grasp:
             if default.name not in parameters:
                 yield unknown("an operation parameter", default.name, sorted(parameters), default.span)

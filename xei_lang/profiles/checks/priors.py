@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from xei_lang.diagnostics import Diagnostic, Label
+from xei_lang.diagnostics import Diagnostic, Label, Span
 from xei_lang.profiles.checks.unknown import unknown
 from xei_lang.profiles.grid import T_object_standing, prior_chain, slot_keys
 from xei_lang.profiles.model import LabObject, Prior, Profile
@@ -64,15 +64,25 @@ def _place(profile: Profile, item: LabObject, prior: Prior, roles: set[str]) -> 
         yield unknown(
             f"a {prior.in_kind} of `{holder.name}`", prior.in_key, keys if keys else (), prior.span, "XEI0624"
         )
-    elif prior.in_kind == "slot" and holder.slots and not set(item.roles) & set(holder.slots.accepts):
-        if not set(holder.slots.accepts) <= roles:
-            return  # the unknown role is the mistake, and is told
-        accepts = ", ".join(f"`{role}`" for role in holder.slots.accepts)
-        yield Diagnostic(
-            "XEI0624",
-            f"`{item.name}` does not go into a slot of `{holder.name}`",
-            prior.span,
-            label=f"accepts {accepts}",
-            labels=(Label(holder.slots.span, "the slots' `accepts`"),),
-            help=(f"give `{item.name}` one of the roles {accepts}, or put it elsewhere",),
-        )
+        return
+    accepts, where = _accepts(holder, prior)
+    if accepts is None or set(item.roles) & set(accepts) or not set(accepts) <= roles:
+        return  # an unknown role is the mistake, and is told
+    shown = ", ".join(f"`{role}`" for role in accepts)
+    kind = "into a slot" if prior.in_kind == "slot" else f"on the spot `{prior.in_key}`"
+    yield Diagnostic(
+        "XEI0624",
+        f"`{item.name}` does not go {kind} of `{holder.name}`",
+        prior.span,
+        label=f"accepts {shown}",
+        labels=(Label(where, "the slots' `accepts`" if prior.in_kind == "slot" else "the spot's `accepts`"),),
+        help=(f"give `{item.name}` one of the roles {shown}, or put it elsewhere",),
+    )
+
+
+def _accepts(holder: LabObject, prior: Prior) -> tuple[tuple[str, ...] | None, Span]:
+    """The roles that the place takes, None for any, and where that is stated."""
+    if prior.in_kind == "slot":
+        return (holder.slots.accepts, holder.slots.span) if holder.slots else (None, holder.span)
+    spot = next((spot for spot in holder.spots if spot.name == prior.in_key), None)
+    return (spot.accepts or None, spot.span) if spot else (None, holder.span)

@@ -45,6 +45,25 @@ POINTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
             "handover_pregrasp",
             "handover_grasp",
             "handover_retreat",
+            "hold_pregrasp",
+            "hold_grasp",
+            "hold_lift",
+            "hold_air",
+            "hold_above",
+            "hold_place",
+            "hold_retreat",
+        ),
+        "cap": (
+            "cap_pregrasp",
+            "cap_grasp",
+            "cap_lift",
+            "cap_turned",
+            "cap_tightened",
+            "cap_back",
+            "cap_off",
+            "cap_over",
+            "cap_on",
+            "cap_clear",
         ),
         "Place": (
             "tip_above",
@@ -61,7 +80,9 @@ POINTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
 )
 """Points of an operation, by the type of the argument that they belong to."""
 
-AXES: Mapping[str, tuple[str, ...]] = MappingProxyType({"object": ("pour_lip", "invert_axis", "shake_axis")})
+AXES: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {"object": ("pour_lip", "invert_axis", "shake_axis"), "cap": ("cap_axis",)}
+)
 AREAS: Mapping[str, tuple[str, ...]] = MappingProxyType({"Place": ("wipe_area",)})
 """Axes and areas of an operation's stated paths, by the type of the argument that they belong to."""
 
@@ -103,6 +124,9 @@ FIELDS: Mapping[GoalKind, tuple[tuple[str, ...], tuple[str, ...]]] = MappingProx
     }
 )
 """Fields that a goal of a template must have, and those that it may have."""
+
+LEADS: Mapping[str, str] = MappingProxyType({"cap": "cap", "rest": "Place"})
+"""What an argument of type object leads to: `object.cap`, `object.rest`."""
 
 _MINUS = ("", "-")
 
@@ -209,16 +233,18 @@ def _fields(skill: SkillSpec, step: TemplateStep) -> Iterator[Diagnostic]:
 def _known(profile: Profile, skill: SkillSpec, step: TemplateStep, field: str) -> list[str] | None:
     """The words that a field of a template can be; None where any will do."""
     args = {arg.name: arg.type for arg in skill.args}
+    objects = [name for name, type_ in args.items() if type_ == "object"]
+    led = {**args, **{f"{name}.{word}": kind for name in objects for word, kind in LEADS.items()}}
     states = sorted({state.name for state in profile.robot.states})
     of_type = {
-        kind: [name for name, type_ in args.items() if type_ == kind]
-        for kind in ("Arm", "object", "Place", "Station")
+        kind: [name for name, type_ in led.items() if type_ == kind]
+        for kind in ("Arm", "object", "cap", "Place", "Station")
     }
     words = {
         "tool": [*of_type["Arm"], *profile.bank.arms],
         "arm": [*of_type["Arm"], *profile.bank.arms],
-        "object": of_type["object"],
-        "instrument": of_type["object"],
+        "object": [*objects, *of_type["cap"]],
+        "instrument": objects,
         "station": [*of_type["Station"], *(station.name for station in profile.calibration.stations)],
         "path": list(get_args(PathKind)),
         "keep": ["upright"],
@@ -228,14 +254,15 @@ def _known(profile: Profile, skill: SkillSpec, step: TemplateStep, field: str) -
     }
     if field in ("axis", "area"):
         kinds = AXES if field == "axis" else AREAS
-        return _of_args(args, kinds)
+        return _of_args(led, kinds)
     if field in ("speed", "width", "height", "for", "angle", "lead", "pitch"):
         heights = _of_args(args, HEIGHTS) if field == "height" else []
         return [*args, *heights, *OPERATION_PARAMETERS, *(item.name for item in skill.parameters)]
     if field == "at" and step.kind == "detach":
-        return [*of_type["Place"], *of_type["Arm"]]
+        left = [f"{name}.{word}" for name in objects for word in ("stand", "mouth")]
+        return [*of_type["Place"], *of_type["Arm"], *left]
     if field == "at":
-        return _of_args(args, POINTS)
+        return _of_args(led, POINTS)
     if field == "frame":
         return [*_of_args(args, FRAMES), *(frame.name for frame in profile.calibration.frames)]
     return words.get(field)

@@ -50,11 +50,14 @@ class SlotGrid(Record):
 
 @record
 class Spot(Record):
-    """A named place on a surface: where the bottom centre of an object stands, in the surface's frame."""
+    """A named place on a surface: where the bottom centre of an object stands, in the surface's frame. It
+    takes objects of one of the roles `accepts`; any, where that is empty.
+    """
 
     name: str
     T_object_spot: Pose
     span: Span
+    accepts: tuple[str, ...] = ()
 
 
 @record

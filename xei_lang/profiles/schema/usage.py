@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -25,6 +25,9 @@ from xei_lang.profiles.schema.values import (
     Text,
     Volume,
 )
+
+MOST_TURNS = 10.0
+"""More than any screw cap has."""
 
 
 class CylinderSize(Model):
@@ -86,10 +89,13 @@ class SlotsModel(Model):
 
 
 class SpotModel(Model):
-    """A named place: where the bottom centre of an object stands, in this object's frame."""
+    """A named place: where the bottom centre of an object stands, in this object's frame, and which roles it
+    takes; any, where `accepts` is left out.
+    """
 
     position: LengthVector
     rpy: AngleVector | None = None
+    accepts: list[Name] = Field(default=[])
 
 
 class ElementModel(Model):
@@ -108,6 +114,18 @@ class TipModel(Model):
     diameter: Size
     seat: Size
     capacity: Volume
+
+
+class ThreadModel(Model):
+    """The thread of a cap: the spot of the vessel that it closes, how far it rises in a whole turn, in how
+    many turns it comes off, and the spot where it lies while the vessel is open. Right-handed: turned to
+    the left, seen from above, it opens.
+    """
+
+    closes: Text
+    lead: Size
+    turns: Annotated[float, Field(gt=0.0, le=MOST_TURNS)]
+    rest: Text
 
 
 class PriorModel(Model):
@@ -137,6 +155,7 @@ class ObjectModel(Model):
     spots: dict[Name, SpotModel] = Field(default={})
     elements: dict[Name, ElementModel] = Field(default={})
     tip: TipModel | None = None
+    thread: ThreadModel | None = None
     prior: PriorModel | None = None
 
 
