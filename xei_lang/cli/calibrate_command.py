@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 
 import click
 
+from xei_lang.cli.calibration_file import calibration_path, rewrite_calibration
 from xei_lang.cli.lab import open_lab, optional
 from xei_lang.cli.options import wants_color
 from xei_lang.cli.report import exit_code, show
-from xei_lang.cli.write_file import rewrite_text, write_text
-from xei_lang.diagnostics import Diagnostic, Diagnostics
-from xei_lang.profiles.files import CALIBRATION
+from xei_lang.cli.write_file import write_text
+from xei_lang.diagnostics import Diagnostics
 from xei_lang.profiles.model import Profile
 from xei_lang.syntax.reading import read_source
 
@@ -90,17 +90,10 @@ def _deliver(
         return ()
     from xei_lang.world.calibration.measured import put_in
 
-    file = Path(lab.folder) / CALIBRATION
-    source, problems = read_source(file, str(file))
-    if source is None:
-        return problems
-    text = put_in(source, measured)
-    if isinstance(text, Diagnostic):
-        return (text,)
-    problems = rewrite_text(file, text) if text != source.text else ()
+    changed, problems = rewrite_calibration(lab, lambda source: put_in(source, measured))
     if not problems and not quiet:
-        told = "is measured now; what it was is in its history" if text != source.text else "stands there"
-        click.echo(f"`frames.{measured.frame}` of {file} {told}", err=True)
+        told = "is measured now; what it was is in its history" if changed else "stands there"
+        click.echo(f"`frames.{measured.frame}` of {calibration_path(lab)} {told}", err=True)
     return problems
 
 

@@ -9,13 +9,12 @@ from typing import TYPE_CHECKING
 
 import click
 
+from xei_lang.cli.calibration_file import calibration_path, rewrite_calibration
 from xei_lang.cli.report import show
-from xei_lang.cli.write_file import rewrite_text, write_bytes
+from xei_lang.cli.write_file import write_bytes
 from xei_lang.diagnostics import Diagnostic, Diagnostics
-from xei_lang.profiles.files import CALIBRATION
 from xei_lang.profiles.load import load_profile
 from xei_lang.profiles.model import Profile
-from xei_lang.syntax.reading import read_source
 
 if TYPE_CHECKING:
     from xei_lang.world.map.grid import OccupancyGrid
@@ -85,19 +84,12 @@ def _other_maps(files: dict[Path, bytes]) -> Diagnostics:
 def _put_in(target: Target, values: Mapping[str, str]) -> Diagnostics:
     from xei_lang.world.map.write_map import put_in
 
-    file = Path(target.lab.folder) / CALIBRATION
-    source, problems = read_source(file, str(file))
-    if source is None:
-        return problems
-    text = put_in(source, values)
-    if isinstance(text, Diagnostic):
-        return (text,)
-    problems = rewrite_text(file, text) if text != source.text else ()
+    changed, problems = rewrite_calibration(target.lab, lambda source: put_in(source, values))
     if not problems and not target.quiet:
         named = target.lab.calibration.map
-        had = named is not None and named.is_named and text != source.text
+        had = named is not None and named.is_named and changed
         told = f"; `{named.yaml}` is in its history" if named is not None and had else ""
-        click.echo(f"`map` of {file} names {values['yaml']}{told}", err=True)
+        click.echo(f"`map` of {calibration_path(target.lab)} names {values['yaml']}{told}", err=True)
     return problems
 
 

@@ -66,7 +66,5 @@ def _arms(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
                 f"nothing says where the tool of the {arm} arm is",
                 span,
                 label=f"`robot_frames` has no `{arm}_tool`",
-                help=(
-                    f"add `{arm}_tool` to `robot_frames` in the calibration, or leave the arm out",
-                ),
+                help=(f"add `{arm}_tool` to `robot_frames` in the calibration, or leave the arm out",),
             )
