@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.lower.capped import BOTTLE, CAP, cap, capped, capped_profile, grounded
-from tests.lower.plans import obj, plan, spot, surface
+from tests.lower.plans import obj, plan, spot, surface, with_object
 from xei_lang.diagnostics import Label, Span
 from xei_lang.ir.geometry import Pose
 from xei_lang.ir.goals import Attach, Detach, Family, ToolPose
@@ -87,19 +87,55 @@ def test_a_cap_at_rest_is_lifted_like_anything() -> None:
     assert graph is not None, problems
 
 
-def test_a_cap_that_is_set_on_its_thread_is_fastened_there() -> None:
+CAP_AT_MOUTH = {
+    "place": (("pick", {"object": obj(CAP), "arm": "right"}), {"on": spot(BOTTLE, "mouth")}),
+    "insert": (("pick", {"object": obj(CAP), "arm": "right"}), {"into": spot(BOTTLE, "mouth")}),
+    "move_object": (None, {"to": spot(BOTTLE, "mouth")}),
+}
+
+
+@pytest.mark.parametrize("skill", sorted(CAP_AT_MOUTH))
+def test_a_cap_that_is_set_on_its_thread_without_turning_is_told(skill: str) -> None:
+    before, where = CAP_AT_MOUTH[skill]
+    call = (skill, {"object": obj(CAP), **where, "arm": "right"})
+    steps, profile = plan(*([before] if before else []), call), unscrewed()
+    graph, problems = lower(steps, profile, grounded(profile))
+    assert graph is None
+    (said,) = problems
+    mouth = f'`{BOTTLE}.spot("mouth")`'
+    assert (said.code, said.message) == (
+        "XEI0729",
+        f"`{CAP}` cannot be set down on {mouth}: it is screwed on there",
+    )
+    assert said.span == steps.steps[-1].args[1].span
+    assert said.label == f"closes `{BOTTLE}` by its thread, which `{skill}` does not turn"
+    assert any(f"`twist_close(object={BOTTLE}, hold=left, twist=right)`" in text for text in said.help)
+
+
+def test_what_another_thing_closes_may_take_a_cap_that_does_not_fit_it() -> None:
+    """A cap of another vessel just stands on the mouth: it rides on nothing."""
+    profile = unscrewed()
+    found = profile.object(CAP)
+    assert found is not None
+    assert found.thread is not None
+    stranger = replace(found, thread=replace(found.thread, on_object="beaker_2"))
+    profile = with_object(profile, CAP, stranger)
+    pick, where = CAP_AT_MOUTH["place"]
+    assert pick is not None
+    graph, problems = lower(
+        plan(pick, ("place", {"object": obj(CAP), **where, "arm": "right"})), profile, grounded(profile)
+    )
+    assert graph is not None, problems
+    (left,) = (goal.action for goal in graph.goals if isinstance(goal.action, Detach))
+    assert (left.place, left.fastened_to) == (f'{BOTTLE}.spot("mouth")', "")
+
+
+def unscrewed() -> Profile:
+    """The cap where `beaker_1` else stands, and the bottle open."""
     profile = capped()[0]
     rest = replace(cap(_bottle(profile)), prior=replace(_prior(profile), in_object="table", in_key="beaker"))
     others = tuple(item for item in profile.objects if item.name != "beaker_1")
-    profile = capped_profile(others=(rest,), base=replace(profile, objects=others))
-    steps = plan(
-        ("pick", {"object": obj(CAP), "arm": "either"}),
-        ("place", {"object": obj(CAP), "on": spot(BOTTLE, "mouth"), "arm": "either"}),
-    )
-    graph, problems = lower(steps, profile, grounded(profile))
-    assert graph is not None, problems
-    (left,) = (goal.action for goal in graph.goals if isinstance(goal.action, Detach))
-    assert (left.place, left.fastened_to) == (f'{BOTTLE}.spot("mouth")', BOTTLE)
+    return capped_profile(others=(rest,), base=replace(profile, objects=others))
 
 
 def _bottle(profile: Profile) -> LabObject:

@@ -219,6 +219,7 @@ _ENTRIES = {
     "XEI0726": Entry("a tip that does not fit"),
     "XEI0727": Entry("a hand that lifts what is screwed on"),
     "XEI0728": Entry("a vessel that two hands cannot open or close"),
+    "XEI0729": Entry("a cap that is set down on its thread"),
     # 08xx motion
     "XEI0801": Entry("an object or a place that is out of reach"),
     "XEI0802": Entry("a place that no grasp reaches without touching something"),

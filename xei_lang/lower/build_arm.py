@@ -21,7 +21,6 @@ from xei_lang.lower.operations.steady import STEADY
 from xei_lang.lower.operations.twist import CAP
 from xei_lang.lower.parameters import ROUNDING_M
 from xei_lang.lower.refusal import refuse
-from xei_lang.lower.riders import carrier_at
 from xei_lang.lower.seats import place_text
 from xei_lang.lower.task import Task, refuse_template
 from xei_lang.lower.walk import Held, Standing
@@ -197,10 +196,9 @@ def _detach(task: Task, line: TemplateStep) -> Draft:
     held = task.scene.held[arm]
     place = "" if ref.kind == "surface" else place_text(ref)
     since = Label(task.step.span, f"`{held.object}` is set down here")
-    carrier, T_world_placed = carrier_at(task.profile, held.object, ref), planned.T_world_placed
-    standing = Standing(held.object, T_world_placed, place, ref.object, since, bool(carrier))
+    standing = Standing(held.object, planned.T_world_placed, place, ref.object, since)
     after = task.scene.detach(arm, standing)
-    action = Detach(held.object, arm, place_text(ref), task.scene.in_base(T_world_placed), carrier)
+    action = Detach(held.object, arm, place_text(ref), task.scene.in_base(planned.T_world_placed))
     return Draft("detach", action, (f"{arm}_gripper",), after, (), contacts(task.scene, after))
 
 

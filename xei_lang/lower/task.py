@@ -17,7 +17,7 @@ from xei_lang.lower.hand import SIDES
 from xei_lang.lower.operations import OPERATIONS, Operation, Planned, Work, operation_of_point
 from xei_lang.lower.parameters import Layers, Setting, layers_of
 from xei_lang.lower.refusal import refuse
-from xei_lang.lower.riders import refuse_fastened
+from xei_lang.lower.riders import refuse_fastened, refuse_set_on_thread
 from xei_lang.lower.walk import Scene
 from xei_lang.profiles.model import Profile, SceneOrigin, SkillSpec, TemplateStep
 
@@ -83,6 +83,7 @@ class Task:
         if key not in self.plans or operation.fresh:
             work = self._work(argument, arm, line)
             refuse_fastened(operation, work)
+            refuse_set_on_thread(operation, work)
             planned = operation.plan(work)
             self.plans[key] = planned
             made = planned.family
