@@ -80,8 +80,8 @@ class Grasps(Record):
 
 
 _Height = tuple[str, Vec3, float, float]
-"""A grasp point on the object's axis: its words, where it is in the object's frame, what it costs, and the
-way back that it needs (m).
+"""A grasp point on the object's axis: its words, where it is in the object's frame, what it costs in
+millionths, and the way back that it needs (m).
 """
 
 _Heading = tuple[float, float]
@@ -166,18 +166,21 @@ def _members(
     there are hundreds of them.
     """
     found: list[ToolPose] = []
+    append = found.append
     bare: Callable[[type], Any] = object.__new__
     for number, way_cost in hopeful:
+        millionths = 1e6 * way_cost + 0.5
         for ways, heights in rolls:
             words, quaternion = ways[number]
-            millionths = 1e6 * way_cost + 0.5
             for under, point_m, height_cost, _ in heights:
                 pose: Any = bare(Pose)
+                pose.position_m = point_m
+                pose.quaternion = quaternion
                 member: Any = bare(ToolPose)
-                pose.position_m, pose.quaternion = point_m, quaternion
-                member.name, member.T_reference_tool = words + under, pose
-                member.cost = (millionths + 1e6 * height_cost) // 1.0 / 1e6
-                found.append(member)
+                member.name = words + under
+                member.T_reference_tool = pose
+                member.cost = (millionths + height_cost) // 1.0 / 1e6
+                append(member)
     return found
 
 
@@ -193,7 +196,7 @@ def _heights(request: Request, tilt: Tilt, drop_m: float, deepest_m: float) -> l
         standoff_m = standoff_needed_m(top - height, half, tilt.down, tilt.level, request.hand)
         if standoff_m <= request.standoff_m + 1e-9:
             under = f", {(top - height) * 1000:.1f} mm under the top"
-            found.append((under, (0.0, 0.0, height), 0.1 * (1.0 - height / top), standoff_m))
+            found.append((under, (0.0, 0.0, height), 1e6 * (0.1 * (1.0 - height / top)), standoff_m))
     return found
 
 
