@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from xei_lang.motion.kinematics import Solver
+from xei_lang.motion.sequence.candidates import THOROUGH
 from xei_lang.motion.sequence.context import Context
 from xei_lang.motion.sequence.group import Unplaced
-from xei_lang.motion.sequence.layers import THOROUGH, feasible, on_line
+from xei_lang.motion.sequence.postures import feasible, on_line
 from xei_lang.motion.sequence.reach import chain_poses, tried_heights
 from xei_lang.motion.sequence.rehearse import Rehearsal
 from xei_lang.motion.sequence.space import target_contact

@@ -17,10 +17,11 @@ from xei_lang.ir.timed import Placement
 from xei_lang.motion.paths.joint_path import JointPath, line_path, spline_path
 from xei_lang.motion.paths.tool_path import ToolPath
 from xei_lang.motion.sequence.context import Context
-from xei_lang.motion.sequence.layers import Layer, carried
+from xei_lang.motion.sequence.layers import Layer
 from xei_lang.motion.sequence.legs import JUMP_RAD, tool_path
 from xei_lang.motion.sequence.motions import Motion
 from xei_lang.motion.sequence.poses import pose_of
+from xei_lang.motion.sequence.postures import carried
 from xei_lang.motion.sequence.sections import Chain
 from xei_lang.motion.sequence.snapshot import UNCHOSEN, Held, Ride, Snapshot
 

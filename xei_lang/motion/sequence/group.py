@@ -15,11 +15,12 @@ from numpy.typing import NDArray
 
 from xei_lang.ir.goals import MotionGoal
 from xei_lang.motion.paths.free import PathBlocked
+from xei_lang.motion.sequence.candidates import LEAN, THOROUGH, Effort, enumerate_layer, slide_heights
 from xei_lang.motion.sequence.choose import Bools, Runs
 from xei_lang.motion.sequence.context import Context
 from xei_lang.motion.sequence.enact import as_held
 from xei_lang.motion.sequence.fits import object_touch
-from xei_lang.motion.sequence.layers import LEAN, THOROUGH, Effort, Layer, enumerate_layer, slide_heights
+from xei_lang.motion.sequence.layers import Layer
 from xei_lang.motion.sequence.meeting import Encounter, Meeting, shown
 from xei_lang.motion.sequence.motions import Motion
 from xei_lang.motion.sequence.onward import goes_on, onward_layer

@@ -14,9 +14,10 @@ import numpy as np
 
 from xei_lang.ir.goals import Action, Attach, Detach, MotionGoal
 from xei_lang.ir.skill_plan import Side
+from xei_lang.motion.sequence.candidates import Effort, enumerate_layer, slide_heights
 from xei_lang.motion.sequence.choose import Array, Bools
 from xei_lang.motion.sequence.context import Context
-from xei_lang.motion.sequence.layers import Effort, Layer, enumerate_layer, slide_heights
+from xei_lang.motion.sequence.layers import Layer
 from xei_lang.motion.sequence.parting import Parting
 from xei_lang.motion.sequence.poses import Ints, orbits
 from xei_lang.motion.sequence.rehearse import Rehearsal, rehearse_group

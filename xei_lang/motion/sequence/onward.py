@@ -16,8 +16,9 @@ from xei_lang.motion.paths.joint_path import spline_path
 from xei_lang.motion.paths.tool_path import StraightPath
 from xei_lang.motion.sequence.context import Context
 from xei_lang.motion.sequence.enact import JUMP_RAD, STEP_M, STEP_RAD
-from xei_lang.motion.sequence.layers import Layer, Rows, carried, layer_of, none_of
+from xei_lang.motion.sequence.layers import Layer, layer_of
 from xei_lang.motion.sequence.poses import tool_poses
+from xei_lang.motion.sequence.postures import Rows, carried, none_of
 from xei_lang.motion.sequence.sections import Chain
 from xei_lang.motion.sequence.snapshot import Snapshot
 

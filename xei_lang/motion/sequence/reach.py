@@ -8,10 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from xei_lang.ir.skill_plan import Side
+from xei_lang.motion.sequence.candidates import THOROUGH, slide_heights
 from xei_lang.motion.sequence.context import Context
-from xei_lang.motion.sequence.layers import THOROUGH, feasible, slide_heights
 from xei_lang.motion.sequence.legs import Leg
 from xei_lang.motion.sequence.poses import matrix, tool_poses
+from xei_lang.motion.sequence.postures import feasible
 from xei_lang.motion.sequence.rehearse import Rehearsal
 
 Array = NDArray[np.float64]
