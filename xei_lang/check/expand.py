@@ -11,12 +11,14 @@ from xei_lang.check import (
     instruments,
     keeps,
     loops,
+    meanwhile,
     measure,
     overlap,
 )
 from xei_lang.check.context import Context
 from xei_lang.check.declarations import declare
 from xei_lang.check.labels import Labels
+from xei_lang.check.named_work import Begun
 from xei_lang.check.nominal import Nominal, Read
 from xei_lang.check.paths import label_of, step_names
 from xei_lang.check.perform import call_skill, confirm, wait
@@ -71,7 +73,7 @@ class Expander:
         self.called: set[Procedure] = set()
         self.running: list[Procedure] = []
         self.overlapping = 0
-        self.begun = instruments.Begun()
+        self.begun = Begun()
         self.keeping: list[keeps.Kept] = []
         self.told_ends: set[Span] = set()
         self.reads: list[Read] = []
@@ -136,7 +138,7 @@ class Expander:
         if self.keeping:
             keeps.watch(self, step, before)
         if self.state.works and len(self.plan.steps) == before + 1:
-            instruments.watch(self, self.plan.steps[-1])
+            meanwhile.watch(self, self.plan.steps[-1])
         if not step.clauses and label is None:
             return
         found = self.plan.since(before)

@@ -7,7 +7,7 @@ from xei_lang.check.binding import CheckOptions
 from xei_lang.check.context import Context, make_context
 from xei_lang.check.expand import Expander
 from xei_lang.check.initial import initial_state
-from xei_lang.check.instruments import all_ended
+from xei_lang.check.meanwhile import all_ended
 from xei_lang.check.paths import check_labels, step_names
 from xei_lang.check.plan_builder import PlanBuilder, Where
 from xei_lang.check.procedures import check_alone, check_declarations
