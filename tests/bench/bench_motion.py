@@ -31,9 +31,10 @@ from xei_lang.ir.world import World  # noqa: E402
 from xei_lang.motion.kinematics.numerical import NumericalArm  # noqa: E402
 from xei_lang.motion.paths.free import FreePath, plan_free_path  # noqa: E402
 from xei_lang.motion.robot import SIDES, Side  # noqa: E402
+from xei_lang.motion.sequence.ahead import Ahead  # noqa: E402
 from xei_lang.motion.sequence.assemble import time_motion  # noqa: E402
 from xei_lang.motion.sequence.context import Context  # noqa: E402
-from xei_lang.motion.sequence.group import Ahead, plan_group  # noqa: E402
+from xei_lang.motion.sequence.group import plan_group  # noqa: E402
 from xei_lang.motion.sequence.motions import Motion  # noqa: E402
 from xei_lang.motion.sequence.poses import matrix, pose_of  # noqa: E402
 from xei_lang.motion.sequence.sections import Group, split  # noqa: E402

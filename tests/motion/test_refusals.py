@@ -15,7 +15,7 @@ from xei_lang.ir.tool_paths import Turn
 from xei_lang.ir.world import World
 from xei_lang.motion.plan import plan_motion
 from xei_lang.motion.robot import load_robot
-from xei_lang.motion.sequence import group, sound
+from xei_lang.motion.sequence import group, sound, winnow
 from xei_lang.motion.sequence.space import Touch
 from xei_lang.profiles.model import Profile
 
@@ -168,7 +168,7 @@ def test_a_search_in_which_every_candidate_falls_ends_after_a_count(monkeypatch:
 
     monkeypatch.setattr(group, "object_touch", fits)
     monkeypatch.setattr(sound, "first_touch", counted)
-    monkeypatch.setattr(group, "MAX_STRIKES", 40)
+    monkeypatch.setattr(winnow, "MAX_STRIKES", 40)
     timed, problems = planned(SET_DOWN, *blocked_place())
     assert timed is None
     assert problems[0].code == "XEI0802"

@@ -23,7 +23,7 @@ from xei_lang.motion.sequence.blame import blame_group, refuse
 from xei_lang.motion.sequence.blame_carry import blame_carry
 from xei_lang.motion.sequence.context import Context, planning_limits
 from xei_lang.motion.sequence.course import Course
-from xei_lang.motion.sequence.group import BlockedTransit, Failure, Unplaced
+from xei_lang.motion.sequence.failure import BlockedTransit, Failure, Unplaced
 from xei_lang.motion.sequence.margins import margins
 from xei_lang.motion.sequence.motions import Motion
 from xei_lang.motion.sequence.sections import split

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,12 +11,25 @@ from xei_lang.ir.skill_plan import Side
 from xei_lang.motion.sequence.choose import Array
 from xei_lang.motion.sequence.context import Context
 from xei_lang.motion.sequence.enact import left
-from xei_lang.motion.sequence.group import Ahead
 from xei_lang.motion.sequence.meeting import Encounter, takes_over
-from xei_lang.motion.sequence.parting import parting_of
+from xei_lang.motion.sequence.parting import Parting, parting_of
 from xei_lang.motion.sequence.rehearse import Rehearsal, rehearse_group
 from xei_lang.motion.sequence.sections import Group, Part
 from xei_lang.motion.sequence.snapshot import Snapshot
+
+
+@dataclass(frozen=True, slots=True)
+class Ahead:
+    """What comes after a group: the configuration (7,) of the arm that is named next, if one is, and the
+    chains of later groups in which the hand still holds what it took in this one, up to where it lets go: the
+    grasp must serve in all of them; how the hand parts from it that this group takes it from; and, where the
+    two grasps are chosen together, its taking by the other hand after the last of those chains.
+    """
+
+    configuration: Array | None = None
+    release: tuple[Rehearsal, ...] = ()
+    parting: Parting | None = None
+    encounter: Encounter | None = None
 
 
 def look_ahead(

@@ -18,9 +18,10 @@ from xei_lang.motion.sequence.assemble import Untimed
 from xei_lang.motion.sequence.blame_way import blame_transit, mm, who
 from xei_lang.motion.sequence.census import Census, take_census
 from xei_lang.motion.sequence.context import Context
-from xei_lang.motion.sequence.group import MAX_STRIKES, BlockedTransit, Failure, Unplaced
+from xei_lang.motion.sequence.failure import BlockedTransit, Failure, Unplaced
 from xei_lang.motion.sequence.reach import nearest_reach, reach_help
 from xei_lang.motion.sequence.sections import Chain
+from xei_lang.motion.sequence.winnow import MAX_STRIKES
 
 _SHOWN_BODIES = 4
 _GIVEN_UP = (f"the search ended when {MAX_STRIKES} candidates had failed on their whole way",)

@@ -10,7 +10,7 @@ from xei_lang.diagnostics import Diagnostic, Label
 from xei_lang.motion.sequence.blame_way import blame_transit
 from xei_lang.motion.sequence.census import take_census
 from xei_lang.motion.sequence.context import Context
-from xei_lang.motion.sequence.group import Failure, Unplaced
+from xei_lang.motion.sequence.failure import Failure, Unplaced
 from xei_lang.motion.sequence.rehearse import rehearse
 from xei_lang.motion.sequence.sections import Group
 from xei_lang.motion.sequence.snapshot import Snapshot

@@ -11,8 +11,8 @@ from xei_lang.ir.goals import Attach, Detach, JointTarget, MotionGoal, MoveTo, S
 from xei_lang.ir.world import WorldObject
 from xei_lang.motion.paths.free import PathBlocked
 from xei_lang.motion.sequence.context import Context
+from xei_lang.motion.sequence.failure import BlockedTransit
 from xei_lang.motion.sequence.fixed import plan_fixed
-from xei_lang.motion.sequence.group import BlockedTransit
 from xei_lang.motion.sequence.motions import Motion
 from xei_lang.motion.sequence.snapshot import Snapshot
 from xei_lang.motion.sequence.transit import plan_transit, worst_tilt

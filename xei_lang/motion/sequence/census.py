@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from xei_lang.motion.kinematics import Solver
 from xei_lang.motion.sequence.candidates import THOROUGH
 from xei_lang.motion.sequence.context import Context
-from xei_lang.motion.sequence.group import Unplaced
+from xei_lang.motion.sequence.failure import Unplaced
 from xei_lang.motion.sequence.postures import feasible, on_line
 from xei_lang.motion.sequence.reach import chain_poses, tried_heights
 from xei_lang.motion.sequence.rehearse import Rehearsal

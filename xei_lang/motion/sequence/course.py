@@ -16,8 +16,9 @@ from xei_lang.motion.sequence.blame import blame_timing
 from xei_lang.motion.sequence.blame_carry import refuse_tilted
 from xei_lang.motion.sequence.blame_way import blame_path
 from xei_lang.motion.sequence.context import Context
+from xei_lang.motion.sequence.failure import Failure
 from xei_lang.motion.sequence.fixed import plan_fixed
-from xei_lang.motion.sequence.group import Failure, plan_group
+from xei_lang.motion.sequence.group import plan_group
 from xei_lang.motion.sequence.meeting import taken_from
 from xei_lang.motion.sequence.motions import Motion
 from xei_lang.motion.sequence.runs import awaited
