@@ -7,7 +7,7 @@ words and repairs nothing.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from xei_lang.ir.geometry import Pose, Vec3
 from xei_lang.ir.goals import (
@@ -54,13 +54,13 @@ _ACTION_OF_KIND: dict[str, type] = {
 def verify_goals(graph: MotionGoalGraph) -> tuple[str, ...]:
     """Every problem of the graph, in the order of its goals; empty for a sound one.
 
-    Checked: unique ids; edges between known goals that run forward (so there is no cycle); actions that fit
-    their kinds; known, non-empty families with finite members; finite poses and unit quaternions; epochs
-    that start at 0, are all described and grow by one with each drive; hands that attach and detach in
-    turn, the object and family that they hold; what is fastened, on no circle; durations, openings and speeds
-    within their ranges; paths of the tool that are stated where they must be, and lead from the move before
-    to their target; runs of instruments that begin once, go on one at a time, and are paused, resumed and
-    ended in turn.
+    Checked: unique ids; edges between known goals that run forward (so there is no cycle); actions that
+    fit their kinds; known, non-empty families with finite members; finite poses and unit quaternions;
+    epochs that start at 0, are all described and grow by one with each drive; hands that attach and
+    detach in turn, the object and family that they hold, and let go of what they open about; what is
+    fastened, on no circle; durations, openings and speeds within their ranges; paths of the tool that are
+    stated where they must be, and lead from the move before to their target; runs of instruments that
+    begin once, go on one at a time, and are paused, resumed and ended in turn.
     """
     problems = [*_ids_and_edges(graph), *_families(graph), *_epochs(graph)]
     families = {family.id for family in graph.families}
@@ -192,8 +192,10 @@ def _hands(graph: MotionGoalGraph) -> Iterator[str]:
     hold it, and then nothing but jaws moves.
     """
     held: dict[Side, Attach] = {}
+    opened: set[Side] = set()
     for index, goal in enumerate(graph.goals):
         action = goal.action
+        yield from _open_jaws(goal, held, opened)
         shared = len({item.object for item in held.values()}) < len(held)
         if shared and not isinstance(action, (Grip, Detach, Wait, Confirm, SetDo, Instrument)):
             yield f"goal `{goal.id}`: it moves while two hands hold one object"
@@ -217,6 +219,23 @@ def _hands(graph: MotionGoalGraph) -> Iterator[str]:
             found = held.get(action.arm) if action.arm else None
             if found is not None and found.family != action.target.family:
                 yield f"goal `{goal.id}`: it aims by another family than the one it holds by"
+
+
+def _open_jaws(goal: MotionGoal, held: Mapping[Side, Attach], opened: set[Side]) -> Iterator[str]:
+    """A hand whose jaws were opened about its object moves on only once it has let go of that; `opened` is
+    kept.
+    """
+    action = goal.action
+    if isinstance(action, Grip):
+        opened.discard(action.arm)
+        if goal.kind == "open_gripper" and action.arm in held:
+            opened.add(action.arm)
+    elif isinstance(action, Detach):
+        opened.discard(action.arm)
+    elif isinstance(action, MoveTo):
+        for arm in sorted(opened if action.arm is None else opened & {action.arm}):
+            name = held[arm].object
+            yield f"goal `{goal.id}`: the {arm} hand moves with open jaws, and still holds `{name}`"
 
 
 def _is_left(graph: MotionGoalGraph, index: int, giver: Side, taken: Attach) -> bool:

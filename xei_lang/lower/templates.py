@@ -15,6 +15,7 @@ from xei_lang.lower import build_arm, build_other
 from xei_lang.lower.draft import Builder, Draft
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.task import Task, refuse_template
+from xei_lang.lower.threads import refuse_half_turned
 from xei_lang.profiles.model import MOST_TIMES, Repeat, TemplateStep
 
 BUILDERS: Mapping[GoalKind, Builder] = MappingProxyType(
@@ -39,16 +40,18 @@ def expand(task: Task, lines: tuple[TemplateStep, ...] | None = None) -> tuple[D
     """The drafts of a step's template, or of some of its lines, in order; `task.scene` is left as the step
     leaves it.
 
-    Raises Refusal: XEI0701 at the profile's line for a template that names what does not exist, else the
-    diagnostic of the operation that cannot be planned.
+    Raises Refusal: XEI0701 at the profile's line for a template that names what does not exist, or leaves a
+    cap half turned, else the diagnostic of the operation that cannot be planned.
     """
     drafts: list[Draft] = []
+    before = task.scene
     for repeat, group in groupby(task.spec.template if lines is None else lines, lambda line: line.repeat):
         block = tuple(group)
         for line in block * (1 if repeat is None else times(task, repeat, block[0])):
             built = _builder(line).build(task, line)
             drafts.extend(built if isinstance(built, tuple) else (built,))
             task.scene = drafts[-1].scene if drafts else task.scene
+    refuse_half_turned(task, before, drafts)
     return tuple(drafts)
 
 

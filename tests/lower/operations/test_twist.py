@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
 import pytest
@@ -13,12 +14,13 @@ from tests.lower.plans import bench, obj, plan, with_object, with_skill
 from xei_lang.diagnostics import Diagnostic
 from xei_lang.ir.geometry import Cylinder, Pose, Primitive
 from xei_lang.ir.goals import Attach, Detach, Grip, MotionGoal, MotionGoalGraph, MoveTo, SlideMove, ToolTarget
-from xei_lang.ir.skill_plan import Fact
+from xei_lang.ir.skill_plan import Fact, Side, SkillPlan, Value
 from xei_lang.ir.tool_paths import Turn
 from xei_lang.ir.verify_goals import verify_goals
+from xei_lang.ir.world import World
 from xei_lang.lower import lower
 from xei_lang.lower.hand import hand_of
-from xei_lang.profiles.model import LabObject, OperationDefault, Profile
+from xei_lang.profiles.model import LabObject, OperationDefault, Profile, TemplateStep
 from xei_lang.quantity import quantity
 from xei_lang.world.ground import ground
 
@@ -33,11 +35,33 @@ def known(profile: Profile, name: str) -> LabObject:
     return found
 
 
-def lowered(profile: Profile | None = None) -> MotionGoalGraph:
-    profile = profile or bench()[0]
+def grounded(profile: Profile, stands: Pose | None = None) -> World:
+    """The profile's world; with a pose, the closed bottle stands there (in `world`)."""
     world, problems = ground(profile)
     assert world is not None, problems
-    graph, problems = lower(BOTH, profile, world)
+    if stands is None:
+        return world
+    T_bottle_cap = world.T_world_object(BOTTLE).inverse() @ world.T_world_object(CAP)
+    poses = {BOTTLE: stands, CAP: stands @ T_bottle_cap}
+    objects = tuple(
+        replace(
+            item,
+            frame_id="world",
+            T_frame_object=poses[item.name],
+            place="" if item.name == BOTTLE else item.place,
+        )
+        if item.name in poses
+        else item
+        for item in world.objects
+    )
+    return replace(world, objects=objects)
+
+
+def lowered(
+    profile: Profile | None = None, stands: Pose | None = None, steps: SkillPlan = BOTH
+) -> MotionGoalGraph:
+    profile = profile or bench()[0]
+    graph, problems = lower(steps, profile, grounded(profile, stands))
     assert graph is not None, problems
     assert verify_goals(graph) == ()
     return graph
@@ -135,6 +159,110 @@ def test_the_holding_hand_stays_under_the_other_one_and_over_the_table(body_mm: 
         assert 0.015 < z < mouth
         assert z < high_mm / 1000
         assert approach[2] > math.sin(math.radians(-16.0))
+
+
+places = st.builds(
+    lambda x, y, yaw: Pose.from_rpy((x, y, 0.75), (0.0, 0.0, yaw)),
+    st.floats(0.50, 0.75), st.floats(-0.65, 0.65), st.floats(-math.pi, math.pi),
+)  # fmt: skip
+sizes = st.tuples(
+    st.integers(20, 60),
+    st.integers(40, 80),
+    st.integers(74, 140),
+    st.integers(500, 8000),
+    st.integers(1, 12),
+)
+
+
+def both(hold: Side) -> SkillPlan:
+    """Opening and closing, with this hand on the bottle."""
+    args: dict[str, Value] = {"object": obj(BOTTLE), "hold": hold, "twist": other(hold)}
+    return plan(("twist_open", args), ("twist_close", args))
+
+
+def other(side: Side) -> Side:
+    return "left" if side == "right" else "right"
+
+
+@settings(max_examples=30, deadline=None)
+@given(places, sizes, st.sampled_from(["left", "right"]))
+def test_wherever_the_bottle_stands_its_cap_follows_its_thread_in_the_air(
+    stands: Pose, drawn: tuple[int, int, int, int, int], hold: Side
+) -> None:
+    profile = sized(*drawn)
+    graph = lowered(profile, stands, both(hold))
+    assert {
+        goal.action.arm for goal, _ in turns(graph, "twist_open#1") if isinstance(goal.action, MoveTo)
+    } == {other(hold)}
+    mouth = known(profile, BOTTLE).spots[0].T_object_spot
+    for step, begins_m, sign in (("twist_open#1", 0.0, 1.0), ("twist_close#1", rise_m(drawn), -1.0)):
+        height = begins_m
+        T_base_seat = in_air(graph, step, hold) @ mouth
+        for goal, turn in turns(graph, step):
+            height += sign * abs(turn.travel_m)
+            assert math.dist(turn.direction, T_base_seat.axes()[2]) < 1e-9
+            assert math.dist(turn.point_m, T_base_seat.position_m) < 1e-9
+            assert turn.travel_m * sign > 0.0
+            wanted = T_base_seat @ Pose((0.0, 0.0, height))
+            assert math.dist(reference(goal).position_m, wanted.position_m) < 1e-6
+        assert height == pytest.approx(rise_m(drawn) if sign > 0.0 else 0.0, abs=1e-6)
+
+
+@settings(max_examples=30, deadline=None)
+@given(places, st.sampled_from(["left", "right"]))
+def test_however_the_bottle_stands_its_hand_heads_inwards_in_the_air(stands: Pose, hold: Side) -> None:
+    graph = lowered(None, stands, both(hold))
+    inwards = -1.0 if hold == "left" else 1.0
+    for step in ("twist_open#1", "twist_close#1"):
+        T_base_air = in_air(graph, step, hold)
+        assert math.dist(T_base_air.axes()[2], (0.0, 0.0, 1.0)) < 1e-9
+        assert T_base_air.position_m[1] * inwards >= 0.0, "nearer to the turning arm"
+        family = next(item for item in graph.families if item.id == f"{step}.{BOTTLE}")
+        straight = next(
+            item for item in family.members if item.name.startswith("low on the body, 0 deg down, 0 ")
+        )
+        heading = (T_base_air @ straight.T_reference_tool).axes()[2]
+        assert math.degrees(math.atan2(heading[1], heading[0])) == pytest.approx(inwards * 70.0, abs=1e-6)
+
+
+@settings(max_examples=20, deadline=None)
+@given(places, sizes, st.sampled_from(["left", "right"]))
+def test_wherever_the_bottle_stood_there_it_stands_again_with_its_cap(
+    stands: Pose, drawn: tuple[int, int, int, int, int], hold: Side
+) -> None:
+    profile = sized(*drawn)
+    world, graph = grounded(profile, stands), lowered(profile, stands, both(hold))
+    T_base_world = world.robot.T_world_base.inverse()
+    T_bottle_cap = stands.inverse() @ world.T_world_object(CAP)
+    left = [goal.action for goal in graph.goals if isinstance(goal.action, Detach)]
+    back = [item for item in left if item.object == BOTTLE]
+    assert len(back) == 2
+    for item in back:
+        assert_same(item.T_base_object, T_base_world @ stands)
+    on = [item for item in left if item.fastened_to][-1]
+    assert_same(in_air(graph, "twist_close#1", hold) @ T_bottle_cap, on.T_base_object)
+
+
+def assert_same(first: Pose, second: Pose) -> None:
+    """To a micrometre, and a turn of a microradian or so: strokes are stated in thousandths of a degree."""
+    assert math.dist(first.position_m, second.position_m) < 1e-6
+    apart = first.inverse() @ second
+    assert math.dist(apart.quaternion[:3], (0.0, 0.0, 0.0)) < 1e-6
+
+
+def rise_m(drawn: tuple[int, int, int, int, int]) -> float:
+    return drawn[3] / 1e6 * drawn[4] / 4
+
+
+def in_air(graph: MotionGoalGraph, step: str, hold: Side) -> Pose:
+    """Where the bottle is held in the air: the goal of the holding hand that follows the slide's."""
+    index = next(
+        k for k, goal in enumerate(graph.goals) if goal.step_id == step and isinstance(goal.action, SlideMove)
+    )
+    goal = graph.goals[index + 1]
+    assert isinstance(goal.action, MoveTo)
+    assert goal.action.arm == hold
+    return reference(goal)
 
 
 def test_the_cap_is_in_a_hand_or_rides_and_lies_on_its_rest_in_between() -> None:
@@ -268,3 +396,67 @@ def test_a_wide_cap_and_a_low_vessel_are_told() -> None:
     assert refused(("twist_open", ARMS), profile=wide).code == "XEI0703"
     low = sized(38, 56, 50, 4000, 4)
     assert refused(("twist_open", ARMS), profile=low).code == "XEI0704"
+
+
+def with_template(
+    changed: Callable[[tuple[TemplateStep, ...]], tuple[TemplateStep, ...]], name: str
+) -> Profile:
+    profile = bench()[0]
+    skill = profile.bank.skill(name)
+    assert skill is not None
+    return with_skill(profile, replace(skill, template=changed(skill.template)))
+
+
+def no_more_strokes(lines: tuple[TemplateStep, ...]) -> tuple[TemplateStep, ...]:
+    return tuple(line for line in lines if line.repeat is None)
+
+
+def one_stroke_more(lines: tuple[TemplateStep, ...]) -> tuple[TemplateStep, ...]:
+    """The repeated lines stand once more behind themselves."""
+    last = max(k for k, line in enumerate(lines) if line.repeat is not None)
+    again = tuple(replace(line, repeat=None) for line in lines if line.repeat is not None)
+    return (*lines[: last + 1], *again, *lines[last + 1 :])
+
+
+@pytest.mark.parametrize(
+    ("name", "way", "wanted", "changed", "found"),
+    [
+        ("twist_open", "off", "360", no_more_strokes, "120"),
+        ("twist_open", "off", "360", one_stroke_more, "480"),
+        ("twist_close", "on", "-360", no_more_strokes, "-120"),
+        ("twist_close", "on", "-360", one_stroke_more, "-480"),
+    ],
+)
+def test_a_template_that_turns_a_cap_by_other_turns_than_its_thread_s_is_told(
+    name: str,
+    way: str,
+    wanted: str,
+    changed: Callable[[tuple[TemplateStep, ...]], tuple[TemplateStep, ...]],
+    found: str,
+) -> None:
+    said = refused(("twist_open", ARMS), ("twist_close", ARMS), profile=with_template(changed, name))
+    assert (said.code, said.message) == ("XEI0701", f"`{name}` does not turn `{CAP}` all the way {way}")
+    assert said.label == f"expected {wanted} deg at a lead of 4 mm, found {found} deg"
+    skill = bench()[0].bank.skill(name)
+    assert skill is not None
+    assert said.span in [line.span for line in skill.template]
+
+
+@pytest.mark.parametrize("value", ["-4", "3"])
+def test_a_template_that_turns_a_cap_at_another_lead_is_told(value: str) -> None:
+    profile = bench()[0]
+    skill = profile.bank.skill("twist_open")
+    assert skill is not None
+    lead = OperationDefault("other_lead", quantity(int(value), "mm"), skill.span)
+    lines = tuple(
+        replace(
+            line, fields=tuple((key, "other_lead" if key == "lead" else text) for key, text in line.fields)
+        )
+        for line in skill.template
+    )
+    changed = replace(skill, template=lines, parameters=(*skill.parameters, lead))
+    said = refused(("twist_open", ARMS), profile=with_skill(profile, changed))
+    assert (said.code, said.label) == (
+        "XEI0701",
+        "expected 360 deg at a lead of 4 mm, found another lead",
+    )

@@ -4,13 +4,16 @@ it down where it stood.
 On a crowded table no two hands reach one vessel, so it is opened in the air between the arms. The hand comes
 from the side, level or nearly, so low that the other one's fingertips stay over it, and in the air it heads
 inwards, across the other one's way. That room was sought by trial: with the vessel 250 mm ahead of the
-shoulders, a third of the way to the other arm's, and the shoulders 260 mm over the grasp point on the cap,
-every posture of a hand that heads 45 .. 90 deg inwards left the other one grasps to turn a cap by 120 deg.
+shoulders, a third of the way to the other arm's, and the shoulders 260 mm (for a left hand that turns 170 mm)
+over the grasp point on the cap, every posture of a hand that heads 45 .. 90 deg inwards left the other one
+grasps to turn a cap by 120 deg.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from types import MappingProxyType
 
 from xei_lang.diagnostics import Label
 from xei_lang.ir.geometry import Box, Cylinder, Pose
@@ -32,7 +35,10 @@ _ASIDE_DEG = (0.0, 12.0, -12.0, 24.0, -24.0)
 """Headings, from the way between shoulder and vessel."""
 _INWARDS_RAD = math.radians(70.0)
 """Where the hand heads in the air, from straight ahead."""
-_SHOULDER_OVER_CAP_M = 0.26
+_SHOULDERS_OVER_CAP_M: Mapping[Side, float] = MappingProxyType({"right": 0.26, "left": 0.17})
+"""By the hand that turns: a thread is right-handed for either arm, so what one does is no mirror image of
+what the other does.
+"""
 _HALF_HAND_M = 0.031
 _HALF_JAW_M = 0.013
 _APART_M = 0.004
@@ -228,14 +234,11 @@ def _air(work: Work, vessel: LabObject, T_base_stood: Pose) -> tuple[Pose, tuple
 def _slide(work: Work, cap: Cap, T_base_air: Pose, depth_m: float) -> Setting:
     """The slide's height at which the shoulders are over the cap as an arm from above needs it."""
     cap_m = cap.T_vessel_seat.position_m[2] + cap.known.size_m[2] - depth_m + cap.rise_m / 2
-    wanted = (
-        T_base_air.position_m[2] + cap_m + _SHOULDER_OVER_CAP_M - shoulder_height_m(work.profile, work.arm)
-    )
+    over_m = _SHOULDERS_OVER_CAP_M[_other(work.arm)]
+    wanted = T_base_air.position_m[2] + cap_m + over_m - shoulder_height_m(work.profile, work.arm)
     joint = work.profile.robot.joint("slide_joint")
     height = wanted if joint is None else min(max(wanted, joint.lower), joint.upper)
-    rule = (
-        f"brings the shoulders {_mm(_SHOULDER_OVER_CAP_M)} over the grasp on the cap, or as near as it goes"
-    )
+    rule = f"brings the shoulders {_mm(over_m)} over the grasp on the cap, or as near as it goes"
     found = work.layers.merge("twist_slide", computed_length("twist_slide", height, rule))
     assert found is not None
     return found
