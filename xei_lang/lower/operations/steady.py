@@ -16,32 +16,28 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from xei_lang.diagnostics import Label
-from xei_lang.ir.geometry import Box, Cylinder, Pose
-from xei_lang.ir.goals import Family, ToolPose, ToolTarget
+from xei_lang.ir.geometry import Cylinder, Pose
+from xei_lang.ir.goals import Family, ToolTarget
 from xei_lang.ir.skill_plan import ObjectRef, Side
-from xei_lang.lower.hand import SIDES, Hand, drop_m, hand_of, tool_axes
+from xei_lang.lower.hand import SIDES, Hand, hand_of
 from xei_lang.lower.operations.approach import back_off
 from xei_lang.lower.operations.base import Aim, Operation, Planned, Work
 from xei_lang.lower.operations.caps import Cap, cap_on, depth_on_cap
 from xei_lang.lower.operations.in_air import room_in_air
+from xei_lang.lower.operations.low_grasps import low_grasps, yaw_of
 from xei_lang.lower.parameters import Setting, computed_length
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.robot import reach_direction, shoulder_height_m
 from xei_lang.lower.walk import Standing
+from xei_lang.lower.words import mm
 from xei_lang.profiles.model import LabObject
 
-_ELEVATIONS_DEG = (0.0, 8.0, 15.0)
-_ASIDE_DEG = (0.0, 12.0, -12.0, 24.0, -24.0)
-"""Headings, from the way between shoulder and vessel."""
 _INWARDS_RAD = math.radians(70.0)
 """Where the hand heads in the air, from straight ahead."""
 _SHOULDERS_OVER_CAP_M: Mapping[Side, float] = MappingProxyType({"right": 0.26, "left": 0.17})
 """By the hand that turns: a thread is right-handed for either arm, so what one does is no mirror image of
 what the other does.
 """
-_HALF_HAND_M = 0.031
-_HALF_JAW_M = 0.013
-_APART_M = 0.004
 _BACK_M = 0.010
 
 
@@ -54,7 +50,7 @@ def plan(work: Work) -> Planned:
     hand, vessel = hand_of(work.profile), cap.vessel
     depth_m = depth_on_cap(work, cap, hand.fingertip_m).si("Length")
     T_base_stood = work.scene.in_base(stood.T_world_object)
-    members = _members(work, cap, T_base_stood, depth_m)
+    members = low_grasps(work, cap, T_base_stood, depth_m)
     family = Family(work.family_id, vessel.name, members, True)
     widths = _widths(work, vessel, hand)
     half_m = vessel.size_m[0] / 2
@@ -128,77 +124,6 @@ def _other(side: Side) -> Side:
     return "left" if side == "right" else "right"
 
 
-def _members(work: Work, cap: Cap, T_base_stood: Pose, depth_m: float) -> tuple[ToolPose, ...]:
-    """Hands low on the vessel: elevation x heading x height x roll. Refuses a vessel that has no room for
-    both hands (XEI0704).
-    """
-    reach = reach_direction(work.profile, work.arm, T_base_stood)
-    ahead = math.atan2(reach[1], reach[0]) - _yaw(T_base_stood)
-    found: list[ToolPose] = []
-    clear_m = work.profile.calibration.clearance_m + 0.001
-    highest = _highest(work, cap, depth_m)
-    for elevation in _ELEVATIONS_DEG:
-        for turned in (True, False):
-            lowest = clear_m + drop_m(math.radians(elevation), turned)
-            for height in _between(lowest, highest):
-                for aside in _ASIDE_DEG:
-                    heading = ahead + math.radians(aside)
-                    level = (math.cos(heading), math.sin(heading), 0.0)
-                    x, y, z = tool_axes(level, math.radians(elevation), turned)
-                    words = f"{elevation:g} deg down, {aside:g} deg aside, {height * 1000:.1f} mm high"
-                    cost = 0.02 * elevation / 8.0 + 0.1 * abs(aside) / 24.0 + (0.0 if turned else 0.05)
-                    name = f"low on the body, {words}{', rolled' if turned else ''}"
-                    found.append(ToolPose(name, Pose.from_axes((0.0, 0.0, height), x, y, z), round(cost, 6)))
-    if not found:
-        refuse(
-            "XEI0704",
-            f"no grasp of `{cap.vessel.name}` leaves room for a hand on its cap",
-            work.span,
-            f"both hands need {_mm(clear_m + drop_m(0.0, True))} under the grasp, which may be at"
-            f" {_mm(max(0.0, highest))} at most",
-            (Label(cap.vessel.span, "its shape is stated here"),),
-        )
-    return tuple(sorted(found, key=lambda member: (member.cost, member.name)))
-
-
-def _highest(work: Work, cap: Cap, depth_m: float) -> float:
-    """How high the grasp may be: under the other hand's fingertips, and on the body's full width."""
-    cap_m = cap.T_vessel_seat.position_m[2] + cap.known.size_m[2] - depth_m
-    under_cap = cap_m - hand_of(work.profile).fingertip_m - _APART_M - _HALF_HAND_M
-    wide_m = cap.vessel.size_m[0]
-    tops = [
-        part.T_object_shape.position_m[2] + _height(part.shape) / 2
-        for part in cap.vessel.geometry
-        if _width(part.shape) >= wide_m - 1e-6
-    ]
-    return min(under_cap, max(tops, default=cap.vessel.size_m[2]) - _HALF_JAW_M)
-
-
-def _height(shape: object) -> float:
-    return (
-        shape.size_m[2] if isinstance(shape, Box) else shape.height_m if isinstance(shape, Cylinder) else 0.0
-    )
-
-
-def _width(shape: object) -> float:
-    return (
-        shape.size_m[0]
-        if isinstance(shape, Box)
-        else 2 * shape.radius_m
-        if isinstance(shape, Cylinder)
-        else 0.0
-    )
-
-
-def _between(lowest: float, highest: float) -> tuple[float, ...]:
-    """Heights to try, in tenths of a millimetre."""
-    room = highest - lowest
-    if room < 0.0:
-        return ()
-    count = 1 if room < 0.004 else 3
-    return tuple(math.floor((highest - room * k / max(1, count - 1)) * 10_000) / 10_000 for k in range(count))
-
-
 def _widths(work: Work, vessel: LabObject, hand: Hand) -> tuple[Setting, ...]:
     wide_m = vessel.size_m[0]
     if wide_m + 0.002 > hand.max_gap_m:
@@ -206,12 +131,12 @@ def _widths(work: Work, vessel: LabObject, hand: Hand) -> tuple[Setting, ...]:
             "XEI0703",
             f"`{vessel.name}` is too wide for the gripper",
             work.span,
-            f"{_mm(wide_m)} wide, the jaws open {_mm(hand.max_gap_m)} at most",
+            f"{mm(wide_m)} wide, the jaws open {mm(hand.max_gap_m)} at most",
         )
     default = work.layers.merge("jaw_clearance", None)
     assert default is not None
     room_m = min(default.si("Length"), (hand.max_gap_m - wide_m) / 2)
-    rule = f"{_mm(wide_m)} and {_mm(room_m)} on each side"
+    rule = f"{mm(wide_m)} and {mm(room_m)} on each side"
     closed = work.layers.merge("hold_width", computed_length("hold_width", wide_m, "width of the vessel"))
     opened = work.layers.merge(
         "hold_open_width", computed_length("hold_open_width", wide_m + 2 * room_m, rule)
@@ -226,7 +151,7 @@ def _air(work: Work, vessel: LabObject, T_base_stood: Pose) -> tuple[Pose, tuple
     (x, y, z), ahead, clearance = room_in_air(work, (_other(work.arm),), math.hypot(*vessel.size_m) / 2)
     reach = reach_direction(work.profile, work.arm, T_base_stood)
     inwards = _INWARDS_RAD if work.arm == "right" else -_INWARDS_RAD
-    yaw = _yaw(T_base_stood) + inwards - math.atan2(reach[1], reach[0])
+    yaw = yaw_of(T_base_stood) + inwards - math.atan2(reach[1], reach[0])
     bottom = z - vessel.size_m[2] / 2
     return Pose.from_rpy((x, y, bottom), (0.0, 0.0, math.remainder(yaw, math.tau))), (ahead, clearance)
 
@@ -238,19 +163,10 @@ def _slide(work: Work, cap: Cap, T_base_air: Pose, depth_m: float) -> Setting:
     wanted = T_base_air.position_m[2] + cap_m + over_m - shoulder_height_m(work.profile, work.arm)
     joint = work.profile.robot.joint("slide_joint")
     height = wanted if joint is None else min(max(wanted, joint.lower), joint.upper)
-    rule = f"brings the shoulders {_mm(over_m)} over the grasp on the cap, or as near as it goes"
+    rule = f"brings the shoulders {mm(over_m)} over the grasp on the cap, or as near as it goes"
     found = work.layers.merge("twist_slide", computed_length("twist_slide", height, rule))
     assert found is not None
     return found
-
-
-def _yaw(pose: Pose) -> float:
-    x, y, _ = pose.axes()[0]
-    return math.atan2(y, x)
-
-
-def _mm(length_m: float) -> str:
-    return f"{round(length_m * 1000, 1):g} mm"
 
 
 STEADY = Operation(
