@@ -8,7 +8,7 @@ from itertools import combinations
 from xei_lang.ir.geometry import Pose
 from xei_lang.ir.goals import Attach, Detach, MotionGoal, in_hand
 from xei_lang.ir.skill_plan import Side
-from xei_lang.ir.timed import TimedGoal
+from xei_lang.ir.timed import Attachment, TimedGoal
 from xei_lang.motion.verify.context import Context, pose_error
 from xei_lang.motion.verify.timeline import Held, Moment
 
@@ -44,6 +44,20 @@ def _check_listed(context: Context, goal: TimedGoal) -> None:
         else:
             T_base_object = context.robot.pose(moment.q, item.link) @ item.T_link_object
             _check_same_pose(context, goal, moment, item.object, T_base_object)
+            _check_same_hand(context, goal, moment, item)
+
+
+def _check_same_hand(context: Context, goal: TimedGoal, moment: Moment, item: Attachment) -> None:
+    """No joint of the goal moves what the plan says it moves without moving it, or the other way about: a
+    pose that is right at the start says nothing of who carries it on.
+    """
+    moved = {context.robot.column[joint] for joint in goal.joints if joint in context.robot.column}
+    stated = moved.intersection(context.robot.columns(item.link))
+    held = [other for other in moment.scene.held if other.object == item.object]
+    if not any(stated == moved.intersection(context.robot.columns(other.link)) for other in held):
+        hand = held[0].side
+        text = f"the plan says that `{item.link}` carries `{item.object}`, which the {hand} hand holds"
+        context.found("attachment", goal, goal.start_s, item.object, text)
 
 
 def _check_same_pose(
