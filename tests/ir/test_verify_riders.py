@@ -1,6 +1,10 @@
-"""What rides on other objects in a MotionGoalGraph: on something else, on no circle, and not in a hand."""
+"""What rides on other objects in a MotionGoalGraph: on something else, on no circle, not in a hand, and left
+where its hand is.
+"""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import pytest
 
@@ -13,9 +17,12 @@ from xei_lang.ir.goals import (
     Epoch,
     Family,
     GoalKind,
+    Grip,
     MotionGoal,
     MotionGoalGraph,
+    MoveTo,
     ToolPose,
+    ToolTarget,
     in_hand,
 )
 from xei_lang.ir.verify_goals import verify_goals
@@ -69,3 +76,33 @@ def test_what_is_left_to_a_hand_is_not_fastened() -> None:
         Detach("cap", "left", in_hand("right"), Pose(), "bottle"),
     )
     assert [text for text in verify_goals(unsound) if "left to a hand, and fastened" in text]
+
+
+def over(height_m: float, offset_m: float = 0.0) -> MotionGoalGraph:
+    """A hand brings its cap to the origin, and leaves it fastened this much higher."""
+    aim = MoveTo(ToolTarget("f", Pose(), (0.0, 0.0, offset_m)), "left")
+    taken, left = screwed("cap", "bottle")
+    made = graph(taken, replace(left, T_base_object=Pose((0.0, 0.0, height_m))))
+    brought = MotionGoal("m", "s", "move_to", aim, 0, (), Span("a.xei", 0, 1))
+    return replace(made, goals=(made.goals[0], brought, made.goals[1]))
+
+
+def test_what_is_fastened_is_where_its_hand_is() -> None:
+    assert verify_goals(over(0.0)) == ()
+    assert verify_goals(over(0.002, 0.002)) == ()
+    told = ("goal `1`: `cap` is fastened elsewhere than where its hand is",)
+    assert verify_goals(over(0.002)) == told
+    assert verify_goals(over(0.0, 0.002)) == told
+
+
+def test_a_hand_that_opened_about_what_it_holds_lets_go_before_it_moves() -> None:
+    made = over(0.0)
+    taken, brought, left = made.goals
+    opens = MotionGoal("o", "s", "open_gripper", Grip("left", 0.05), 0, (), Span("a.xei", 0, 1))
+    closes = replace(opens, id="c", kind="close_gripper", action=Grip("left", 0.03))
+    told = ("goal `m`: the left hand moves with open jaws, and still holds `cap`",)
+    assert verify_goals(replace(made, goals=(taken, opens, brought, left))) == told
+    assert verify_goals(replace(made, goals=(taken, opens, closes, brought, left))) == ()
+    assert verify_goals(replace(made, goals=(taken, brought, opens, left))) == ()
+    other = replace(opens, action=Grip("right", 0.05))
+    assert verify_goals(replace(made, goals=(taken, other, brought, left))) == ()
