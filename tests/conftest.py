@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -19,6 +20,9 @@ settings.load_profile("xei")
 # Hundreds of tests start the program: each start would compile all of its modules anew.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
+
+# A shell's background job ignores interrupts, and so would every program that a test starts and interrupts.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # Read once, when the first test imports MuJoCo: without a screen, pictures are rendered through EGL.
 os.environ.setdefault("MUJOCO_GL", "egl")

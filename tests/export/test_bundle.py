@@ -99,8 +99,8 @@ def test_the_manifest_says_what_went_in_and_what_blocks(tmp_path: Path) -> None:
             {
                 "stage": "hardware",
                 "ready": False,
-                "blockers": 6,
-                "by_representation": {"calibration_profile": 3, "usage_profile": 3},
+                "blockers": 8,
+                "by_representation": {"calibration_profile": 5, "usage_profile": 3},
             },
         ],
         "blockers": [blocker_json(blocker) for blocker in deployment_blockers(profile())],

@@ -17,9 +17,7 @@ def calibration_path(lab: Profile) -> Path:
     return Path(lab.folder) / CALIBRATION
 
 
-def rewrite_calibration(
-    lab: Profile, edit: Callable[[Source], str | Diagnostic]
-) -> tuple[bool, Diagnostics]:
+def rewrite_calibration(lab: Profile, edit: Callable[[Source], str | Diagnostic]) -> tuple[bool, Diagnostics]:
     """Put what `edit` makes of the file in its place, whole or not at all: whether it changed, and what stood
     in the way.
     """

@@ -23,6 +23,8 @@ _BACK = 3
 _SIGNS = frozenset("()[]{}:=,.;")
 _FILLERS = {"NAME": "_", "NUMBER": "1", "STRING": '""', "QUANTITY": "1 s", "COMPARISON": "==", "UPDATE": ":="}
 _COSTS = {")": 1, "]": 1, ",": 1, ":": 1, "=": 1, "(": 2, "{": 2, "..": 2, "}": 6, ".": 4}
+_DELETE_CLOSING = 4
+"""More than a name that is put in before it: without its end, an argument list goes on in the next line."""
 _WORD_COST, _NAME_COST, _OTHER_COST = 3, 3, 5
 
 
@@ -89,9 +91,12 @@ def _candidates(
         return
     first = begins_line(tokens, at, text) if at else True
     opens_statement = first and looks_like_statement(tokens, at)
-    yield from _insertions(machine, stack, (), wrong, 0, first)
+    yield from _insertions(machine, stack, (), wrong, 0, first, opens_statement)
     if wrong.kind != END and not opens_statement and wrong.text not in ("{", "}"):
-        yield Repair("delete", 0, (), 1, 2, wrong)
+        twice = bool(done) and done[-1][0].text == wrong.text
+        yield Repair(
+            "delete", 0, (), 1, _DELETE_CLOSING if wrong.text in (")", "]") and not twice else 2, wrong
+        )
         yield from _replacements(machine, stack, (), wrong, 0)
         following = tokens[at + 1]
         if following.kind != END and following.text not in ("{", "}"):
@@ -123,7 +128,13 @@ def _breaks(machine: Machine, text: str, done: Sequence[tuple[Token, Stack]]) ->
 
 
 def _insertions(
-    machine: Machine, stack: Stack, later: tuple[Token, ...], token: Token, back: int, first: bool
+    machine: Machine,
+    stack: Stack,
+    later: tuple[Token, ...],
+    token: Token,
+    back: int,
+    first: bool,
+    opens_statement: bool = False,
 ) -> Iterator[Repair]:
     spelled = spelling(machine.tables)
     for kind in sorted(machine.expected(stack) - {END}):
@@ -134,6 +145,8 @@ def _insertions(
             cost = _NAME_COST
         if first and written == "{":
             cost = 0
+        if opens_statement and written in (")", "]"):
+            cost = 0  # What looks like a statement could as well be one more argument.
         after = (token, *later) if back else ()
         yield Repair("insert", back, (new, *after), 0, cost + back, new, written)
 

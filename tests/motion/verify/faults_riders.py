@@ -46,9 +46,11 @@ def rider_left_behind(bench: Bench) -> Fault | None:
 
 def loose_rider(bench: Bench) -> Fault | None:
     """What the plan takes to ride on something just stands there."""
-    if not _riders(bench):
+    attached = {item.object for goal in bench.plan.goals for item in goal.attached}
+    carried = [name for name in _riders(bench) if name in attached]
+    if not carried:
         return None
-    name = bench.random.choice(_riders(bench))
+    name = bench.random.choice(carried)
     objects = tuple(
         replace(item, fastened_to="") if item.name == name else item for item in bench.world.objects
     )
