@@ -4,10 +4,9 @@
 
 from __future__ import annotations
 
-from xei_lang.diagnostics import Label, Span
+from xei_lang.diagnostics import Span
 from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, Step, Value
-from xei_lang.lower.operations.caps import cap_on
-from xei_lang.lower.refusal import refuse
+from xei_lang.lower.operations.caps import cap_on, refuse_capless
 from xei_lang.profiles.model import Profile
 
 
@@ -21,15 +20,7 @@ def leads_to(profile: Profile, step: Step, span: Span, name: str) -> Value | Non
         return None if word else value
     cap = cap_on(profile, value.name)
     if cap is None or cap.thread is None:
-        known = profile.object(value.name)
-        refuse(
-            "XEI0728",
-            f"`{value.name}` has no cap that could be turned",
-            span,
-            "no object of the profile closes it with a `thread`",
-            (Label(known.span, "the object is stated here"),) if known else (),
-            help=(f"if it has one, state it, with `thread: {{closes: '{value.name}.spot(...)', ...}}`",),
-        )
+        refuse_capless(profile, value.name, span)
     if word == "cap":
         return ObjectRef(cap.name)
     return PlaceRef(cap.thread.rest_object, "spot", cap.thread.rest_key) if word == "rest" else None

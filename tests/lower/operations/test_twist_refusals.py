@@ -40,6 +40,7 @@ def refused(
 def test_what_two_hands_cannot_open() -> None:
     said = refused(("twist_open", {**ARMS, "object": obj("bottle_1")}))
     assert (said.code, said.message) == ("XEI0728", "`bottle_1` has no cap that could be turned")
+    assert said.help[0] == f"with a screw cap: `{BOTTLE}`"
     said = refused(("twist_open", {**ARMS, "twist": "left"}))
     assert (said.code, said.message) == ("XEI0728", f"one hand cannot hold `{BOTTLE}` and turn its cap")
     assert said.help == ("say `twist=right`",)
@@ -50,6 +51,19 @@ def test_a_cap_is_where_the_vessel_s_state_says() -> None:
     assert (said.code, said.message) == ("XEI0728", f"`{BOTTLE}` is said to be open, and its cap sits on it")
     said = refused(("twist_open", ARMS), ("twist_open", ARMS), **{BOTTLE: "closed"})
     assert said.message == f"`{BOTTLE}` is said to be closed, and its cap lies on `cap_rest_2`"
+
+
+def test_what_is_open_is_not_opened_nor_what_is_closed_closed() -> None:
+    said = refused(("twist_open", ARMS), ("twist_open", ARMS))
+    assert (said.code, said.message) == (
+        "XEI0728",
+        f"`{BOTTLE}` is open already: its cap lies on `cap_rest_2`",
+    )
+    assert said.label == "`twist_open` requires cap(object) == closed"
+    assert said.help == ("leave this step out",)
+    said = refused(("twist_close", ARMS))
+    assert said.message == f"`{BOTTLE}` is closed already: its cap sits on it"
+    assert said.label == "`twist_close` requires cap(object) == open"
 
 
 def test_a_cap_that_is_half_on_its_thread_contradicts_no_state() -> None:

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
+from typing import NoReturn
 
-from xei_lang.diagnostics import Label
+from xei_lang.diagnostics import Label, Span
 from xei_lang.ir.geometry import Cylinder, Pose, Vec3
 from xei_lang.ir.skill_plan import ObjectRef
 from xei_lang.lower.operations.base import Work
@@ -50,6 +51,21 @@ def cap_on(profile: Profile, vessel: str) -> LabObject | None:
     return next((item for item in profile.objects if item.thread and item.thread.on_object == vessel), None)
 
 
+def refuse_capless(profile: Profile, name: str, span: Span) -> NoReturn:
+    """Give up a step about an object that no cap of the profile closes (XEI0728)."""
+    known = profile.object(name)
+    closed = [f"`{item.thread.on_object}`" for item in profile.objects if item.thread]
+    others = (f"with a screw cap: {', '.join(closed)}",) if closed else ()
+    refuse(
+        "XEI0728",
+        f"`{name}` has no cap that could be turned",
+        span,
+        "no object of the profile closes it with a `thread`",
+        (Label(known.span, "the object is stated here"),) if known else (),
+        help=(*others, f"if it has one, state it, with `thread: {{closes: '{name}.spot(...)', ...}}`"),
+    )
+
+
 def subject_cap(work: Work) -> Cap:
     """The cap that an operation works with: its subject. Refuses caps and vessels that are not round
     (XEI0728).
@@ -71,25 +87,6 @@ def subject_cap(work: Work) -> Cap:
                 (Label(item.span, "its shape is stated here"),),
             )
     return Cap(known, thread, vessel)
-
-
-def refuse_elsewhere(work: Work, cap: Cap) -> None:
-    """Give up a step that begins where the vessel's state is not where its cap is (XEI0728)."""
-    name, facts = cap.vessel.name, [fact for fact in work.step.state_before if fact.variable == "cap"]
-    stated = next((str(fact.value) for fact in facts if fact.subject == name), "")
-    is_on = work.scene.carrier_of(cap.known.name) == name
-    if work.scene.holder(cap.known.name) is not None or stated != ("open" if is_on else "closed"):
-        return
-    standing = work.scene.standing.get(cap.known.name)
-    where = "sits on it" if is_on else f"lies on `{standing.support}`" if standing else "is not on it"
-    refuse(
-        "XEI0728",
-        f"`{name}` is said to be {stated}, and its cap {where}",
-        work.span,
-        f"`{cap.known.name}` {where}",
-        (standing.since,) if standing and standing.since else (),
-        help=(f"leave out `given cap({name}) == {stated}`, or correct the cap's `prior`",),
-    )
 
 
 def strokes_of(work: Work, cap: Cap) -> dict[str, Setting]:

@@ -19,12 +19,13 @@ from xei_lang.diagnostics import Label
 from xei_lang.ir.geometry import Cylinder, Pose
 from xei_lang.ir.goals import Family, ToolTarget
 from xei_lang.ir.skill_plan import ObjectRef, Side
-from xei_lang.lower.hand import SIDES, Hand, hand_of
+from xei_lang.lower.hand import SIDES, hand_of
 from xei_lang.lower.operations.approach import back_off
 from xei_lang.lower.operations.base import Aim, Operation, Planned, Work
-from xei_lang.lower.operations.caps import Cap, cap_on, depth_on_cap
+from xei_lang.lower.operations.caps import Cap, cap_on, depth_on_cap, refuse_capless
 from xei_lang.lower.operations.in_air import room_in_air
 from xei_lang.lower.operations.low_grasps import low_grasps, yaw_of
+from xei_lang.lower.operations.round_jaws import round_jaws
 from xei_lang.lower.parameters import Setting, computed_length
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.robot import reach_direction, shoulder_height_m
@@ -52,7 +53,7 @@ def plan(work: Work) -> Planned:
     T_base_stood = work.scene.in_base(stood.T_world_object)
     members = low_grasps(work, cap, T_base_stood, depth_m)
     family = Family(work.family_id, vessel.name, members, True)
-    widths = _widths(work, vessel, hand)
+    widths = round_jaws(work, vessel, hand, "hold", "vessel")
     half_m = vessel.size_m[0] / 2
     standoff = computed_length(
         "standoff", half_m + hand.fingertip_m + _BACK_M, "takes the fingertips clear of the vessel"
@@ -108,10 +109,11 @@ def _vessel(work: Work) -> tuple[Cap, Standing]:
             help=(f"say `{sides[-1].name}={_other(work.arm)}`",),
         )
     vessel, known = work.profile.object(name), cap_on(work.profile, name)
-    if vessel is None or known is None or known.thread is None or not isinstance(vessel.shape, Cylinder):
-        label = (Label(vessel.span, "the object is stated here"),) if vessel else ()
-        what = "is not round" if known is not None else "has no cap that could be turned"
-        refuse("XEI0728", f"`{name}` {what}", work.span, "expected a round vessel with a screw cap", label)
+    if vessel is None or known is None or known.thread is None:
+        refuse_capless(work.profile, name, work.span)
+    if not isinstance(vessel.shape, Cylinder):
+        label = Label(vessel.span, "the object is stated here")
+        refuse("XEI0728", f"`{name}` is not round", work.span, "expected a round vessel", (label,))
     standing = work.scene.standing.get(name)
     if standing is None:
         holder = work.scene.holder(name)
@@ -122,28 +124,6 @@ def _vessel(work: Work) -> tuple[Cap, Standing]:
 
 def _other(side: Side) -> Side:
     return "left" if side == "right" else "right"
-
-
-def _widths(work: Work, vessel: LabObject, hand: Hand) -> tuple[Setting, ...]:
-    wide_m = vessel.size_m[0]
-    if wide_m + 0.002 > hand.max_gap_m:
-        refuse(
-            "XEI0703",
-            f"`{vessel.name}` is too wide for the gripper",
-            work.span,
-            f"{mm(wide_m)} wide, the jaws open {mm(hand.max_gap_m)} at most",
-        )
-    default = work.layers.merge("jaw_clearance", None)
-    assert default is not None
-    room_m = min(default.si("Length"), (hand.max_gap_m - wide_m) / 2)
-    rule = f"{mm(wide_m)} and {mm(room_m)} on each side"
-    closed = work.layers.merge("hold_width", computed_length("hold_width", wide_m, "width of the vessel"))
-    opened = work.layers.merge(
-        "hold_open_width", computed_length("hold_open_width", wide_m + 2 * room_m, rule)
-    )
-    assert closed is not None
-    assert opened is not None
-    return (closed, computed_length("grasp_width", closed.si("Length"), "as the jaws close"), opened)
 
 
 def _air(work: Work, vessel: LabObject, T_base_stood: Pose) -> tuple[Pose, tuple[Setting, Setting]]:

@@ -11,20 +11,20 @@ import math
 from xei_lang.ir.geometry import Pose
 from xei_lang.ir.goals import Family, ToolPose, ToolTarget
 from xei_lang.ir.tool_paths import Turn
-from xei_lang.lower.hand import Hand, hand_of, tool_axes
+from xei_lang.lower.hand import hand_of, tool_axes
 from xei_lang.lower.operations.approach import back_off
 from xei_lang.lower.operations.base import Aim, Axis, Operation, Planned, Work
+from xei_lang.lower.operations.cap_place import refuse_elsewhere
 from xei_lang.lower.operations.caps import (
     Cap,
     depth_on_cap,
     raised,
-    refuse_elsewhere,
     strokes_of,
     subject_cap,
     up,
 )
-from xei_lang.lower.parameters import Setting, computed_length
-from xei_lang.lower.refusal import refuse
+from xei_lang.lower.operations.round_jaws import round_jaws
+from xei_lang.lower.parameters import computed_length
 
 _ELEVATIONS_DEG = (90.0, 75.0, 60.0)
 _ELEVATION_COSTS = {90.0: 0.0, 75.0: 0.02, 60.0: 0.1}
@@ -41,7 +41,7 @@ def plan_cap(work: Work) -> Planned:
     cap, hand = subject_cap(work), hand_of(work.profile)
     refuse_elsewhere(work, cap)
     depth = depth_on_cap(work, cap, hand.fingertip_m)
-    widths = _widths(work, cap, hand)
+    widths = round_jaws(work, cap.known, hand, "cap", "cap")
     members = cap_members(cap, depth.si("Length"))
     family = Family(work.family_id, cap.known.name, members, True)
     standoff = computed_length(
@@ -84,27 +84,6 @@ def cap_members(cap: Cap, depth_m: float) -> tuple[ToolPose, ...]:
                 name = f"on the cap, {kind}, azimuth {azimuth:g} deg{', rolled' if turned else ''}"
                 found.append(ToolPose(name, Pose.from_axes(point, x, y, z), _ELEVATION_COSTS[elevation]))
     return tuple(sorted(found, key=lambda member: (member.cost, member.name)))
-
-
-def _widths(work: Work, cap: Cap, hand: Hand) -> tuple[Setting, ...]:
-    """The jaws on the cap, `grasp_width` and `cap_width`, and round it, `cap_open_width`."""
-    wide_m = cap.known.size_m[0]
-    if wide_m + 2 * _LEAST_CLEARANCE_M > hand.max_gap_m + 1e-9:
-        refuse(
-            "XEI0703",
-            f"`{cap.known.name}` is too wide for the gripper",
-            work.span,
-            f"{_mm(wide_m)} wide, the jaws open {_mm(hand.max_gap_m)} at most",
-        )
-    default = work.layers.merge("jaw_clearance", None)
-    assert default is not None
-    room_m = min(default.si("Length"), (hand.max_gap_m - wide_m) / 2)
-    rule = f"{_mm(wide_m)} and {_mm(room_m)} on each side"
-    closed = work.layers.merge("cap_width", computed_length("cap_width", wide_m, "width of the cap"))
-    opened = work.layers.merge("cap_open_width", computed_length("cap_open_width", wide_m + 2 * room_m, rule))
-    assert closed is not None
-    assert opened is not None
-    return (closed, computed_length("grasp_width", closed.si("Length"), "as the jaws close"), opened)
 
 
 def plan_thread(work: Work) -> Planned:
@@ -155,10 +134,6 @@ def plan_thread(work: Work) -> Planned:
         ),
     }
     return Planned({**settings, "cap_lift": lift}, aims, axes={"cap_axis": axis})
-
-
-def _mm(length_m: float) -> str:
-    return f"{round(length_m * 1000, 1):g} mm"
 
 
 CAP = Operation(

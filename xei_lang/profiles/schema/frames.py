@@ -65,8 +65,8 @@ class ResidualModel(Model):
     pixel: Annotated[float, Field(ge=0)] | None = None
 
 
-class EarlierModel(Model):
-    """What a transform was taken to be until it was measured anew."""
+class TransformModel(Model):
+    """Where a frame is, or was taken to be until it was measured anew, and how that is known."""
 
     position: LengthVector | None = None
     rpy: AngleVector | None = None
@@ -78,16 +78,8 @@ class EarlierModel(Model):
     covariance: Covariance | None = None
 
 
-class FrameModel(Model):
+class FrameModel(TransformModel):
     """A static transform, and how it is known; `history` begins with the newest of its former values."""
 
     parent: Name
-    position: LengthVector | None = None
-    rpy: AngleVector | None = None
-    status: Status
-    measured_on: Day | None = None
-    method: Text
-    tolerance: Tolerance
-    residual: ResidualModel | None = None
-    covariance: Covariance | None = None
-    history: Annotated[list[EarlierModel], Field(max_length=1000)] = Field(default=[])
+    history: Annotated[list[TransformModel], Field(max_length=1000)] = Field(default=[])
