@@ -24,8 +24,9 @@ sys.path.insert(0, str(ROOT))
 
 from tests.motion.sequence.bench import SRDF, URDF, bench, context  # noqa: E402
 from xei_lang.diagnostics import Span  # noqa: E402
+from xei_lang.ir.families import Family, ToolPose, ToolTarget  # noqa: E402
 from xei_lang.ir.geometry import Pose  # noqa: E402
-from xei_lang.ir.goals import Epoch, Family, MotionGoal, MotionGoalGraph, MoveTo, ToolPose, ToolTarget  # noqa: E402
+from xei_lang.ir.goals import Epoch, MotionGoal, MotionGoalGraph, MoveTo  # noqa: E402
 from xei_lang.ir.timed import TimedGoal, TimedPlan  # noqa: E402
 from xei_lang.ir.world import World  # noqa: E402
 from xei_lang.motion.kinematics.numerical import NumericalArm  # noqa: E402

@@ -37,7 +37,10 @@ OPTIONS = Options(None, (), (), 0, False, False)
 
 @pytest.fixture
 def lab(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    shutil.copytree(PROFILES / "openarm_bench", tmp_path / "profiles" / "openarm_bench")
+    bench = PROFILES / "openarm_bench"
+    # What Python leaves beside generate.py is no part of a profile.
+    own = shutil.ignore_patterns("__pycache__")
+    shutil.copytree(bench, tmp_path / "profiles" / bench.name, ignore=own)
     for name, text in TEXTS.items():
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text(text, encoding="utf-8")

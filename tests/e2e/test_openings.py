@@ -12,8 +12,9 @@ import pytest
 
 from tests.e2e.made import PROTOCOLS, compiled
 from tests.motion.sequence.bench import DESCRIPTION, bench, goals, obj, plan, slot
+from xei_lang.ir.families import ToolTarget
 from xei_lang.ir.geometry import Pose
-from xei_lang.ir.goals import MotionGoal, MotionGoalGraph, MoveTo, ToolTarget
+from xei_lang.ir.goals import MotionGoal, MotionGoalGraph, MoveTo
 from xei_lang.ir.timed import TimedPlan
 from xei_lang.ir.world import World
 from xei_lang.motion.plan import plan_motion

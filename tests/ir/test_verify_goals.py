@@ -11,13 +11,13 @@ from typing import Any
 import pytest
 
 from xei_lang.diagnostics import Span
+from xei_lang.ir.families import Family, ToolPose, ToolTarget
 from xei_lang.ir.geometry import Pose
 from xei_lang.ir.goals import (
     Action,
     Attach,
     Detach,
     Epoch,
-    Family,
     GoalKind,
     Grip,
     JointTarget,
@@ -27,8 +27,6 @@ from xei_lang.ir.goals import (
     NavToPose,
     Perceive,
     SlideMove,
-    ToolPose,
-    ToolTarget,
     Wait,
 )
 from xei_lang.ir.verify_goals import verify_goals

@@ -9,20 +9,18 @@ from dataclasses import replace
 import pytest
 
 from xei_lang.diagnostics import Span
+from xei_lang.ir.families import Family, ToolPose, ToolTarget
 from xei_lang.ir.geometry import Pose
 from xei_lang.ir.goals import (
     Action,
     Attach,
     Detach,
     Epoch,
-    Family,
     GoalKind,
     Grip,
     MotionGoal,
     MotionGoalGraph,
     MoveTo,
-    ToolPose,
-    ToolTarget,
     in_hand,
 )
 from xei_lang.ir.verify_goals import verify_goals

@@ -9,8 +9,9 @@ from typing import Any
 import pytest
 
 from xei_lang.diagnostics import Span
+from xei_lang.ir.families import Family, ToolPose, ToolTarget
 from xei_lang.ir.geometry import Pose
-from xei_lang.ir.goals import Epoch, Family, MotionGoal, MotionGoalGraph, MoveTo, ToolPose, ToolTarget
+from xei_lang.ir.goals import Epoch, MotionGoal, MotionGoalGraph, MoveTo
 from xei_lang.ir.tool_paths import Raster, Turn
 from xei_lang.ir.verify_goals import verify_goals
 

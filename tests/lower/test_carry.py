@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from tests.lower.plans import bench, obj, plan, station, with_skill
-from xei_lang.ir.goals import JointTarget, MotionGoal, MotionGoalGraph, MoveTo, ToolTarget
+from xei_lang.ir.families import ToolTarget
+from xei_lang.ir.goals import JointTarget, MotionGoal, MotionGoalGraph, MoveTo
 from xei_lang.ir.skill_plan import SkillPlan, Value
 from xei_lang.ir.verify_goals import verify_goals
 from xei_lang.lower import lower

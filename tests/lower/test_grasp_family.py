@@ -14,8 +14,9 @@ from hypothesis import strategies as st
 
 from tests.lower.hands import hand_boxes, links_in_tool
 from tests.lower.plans import bench, moved, obj, plan, put_on_rack, with_object
+from xei_lang.ir.families import Family, ToolPose, ToolTarget
 from xei_lang.ir.geometry import Box, Cylinder, Pose, Vec3
-from xei_lang.ir.goals import Family, Grip, MotionGoalGraph, MoveTo, ToolPose, ToolTarget
+from xei_lang.ir.goals import Grip, MotionGoalGraph, MoveTo
 from xei_lang.ir.verify_goals import verify_goals
 from xei_lang.lower import lower
 from xei_lang.profiles.model import Profile

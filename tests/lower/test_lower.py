@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from tests.lower.plans import bench, obj, plan, put_on_rack, slot, spot, station, surface, with_skill
+from xei_lang.ir.families import ToolTarget
 from xei_lang.ir.forms.goals_text import to_text
 from xei_lang.ir.goals import (
     Attach,
@@ -18,7 +19,6 @@ from xei_lang.ir.goals import (
     MoveTo,
     NavToPose,
     SlideMove,
-    ToolTarget,
     Wait,
 )
 from xei_lang.ir.skill_plan import SkillPlan

@@ -14,8 +14,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.lower.plans import bench, moved, obj, plan, spot, with_object, with_skill
+from xei_lang.ir.families import ToolTarget
 from xei_lang.ir.geometry import Box, Cylinder, Pose, Vec3
-from xei_lang.ir.goals import Grip, MotionGoalGraph, MoveTo, ToolTarget
+from xei_lang.ir.goals import Grip, MotionGoalGraph, MoveTo
 from xei_lang.ir.verify_goals import verify_goals
 from xei_lang.lower import lower
 from xei_lang.lower.hand import hand_of

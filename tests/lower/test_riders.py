@@ -13,8 +13,9 @@ from hypothesis import strategies as st
 from tests.lower.capped import BOTTLE, CAP, cap, capped, capped_profile, grounded
 from tests.lower.plans import obj, plan, spot, surface, with_object
 from xei_lang.diagnostics import Label, Span
+from xei_lang.ir.families import Family, ToolPose
 from xei_lang.ir.geometry import Pose
-from xei_lang.ir.goals import Attach, Detach, Family, ToolPose
+from xei_lang.ir.goals import Attach, Detach
 from xei_lang.ir.skill_plan import Side, SkillPlan
 from xei_lang.ir.verify_goals import verify_goals
 from xei_lang.lower import lower

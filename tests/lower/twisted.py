@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from tests.lower.plans import bench, obj, plan, with_object, with_skill
+from xei_lang.ir.families import ToolTarget
 from xei_lang.ir.geometry import Cylinder, Pose, Primitive
-from xei_lang.ir.goals import MotionGoal, MotionGoalGraph, MoveTo, ToolTarget
+from xei_lang.ir.goals import MotionGoal, MotionGoalGraph, MoveTo
 from xei_lang.ir.skill_plan import SkillPlan
 from xei_lang.ir.tool_paths import Turn
 from xei_lang.ir.verify_goals import verify_goals

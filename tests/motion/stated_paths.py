@@ -11,8 +11,9 @@ from functools import cache
 from tests.lower.plans import bench, obj, plan, spot
 from tests.motion.sequence.bench import DESCRIPTION, goals
 from xei_lang.diagnostics import Diagnostics
+from xei_lang.ir.families import ToolTarget
 from xei_lang.ir.geometry import Pose
-from xei_lang.ir.goals import MotionGoal, MotionGoalGraph, MoveTo, ToolTarget
+from xei_lang.ir.goals import MotionGoal, MotionGoalGraph, MoveTo
 from xei_lang.ir.timed import TimedGoal, TimedPlan
 from xei_lang.ir.tool_paths import Turn
 from xei_lang.motion.plan import plan_motion

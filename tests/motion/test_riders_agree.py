@@ -15,18 +15,17 @@ from hypothesis import strategies as st
 from tests.lower.capped import BOTTLE, CAP, capped
 from tests.motion.sequence.bench import SRDF, URDF, context
 from xei_lang.diagnostics import Span
+from xei_lang.ir.families import Family, ToolPose
 from xei_lang.ir.geometry import Pose
 from xei_lang.ir.goals import (
     Action,
     Attach,
     Detach,
     Epoch,
-    Family,
     GoalKind,
     MotionGoal,
     MotionGoalGraph,
     NavToPose,
-    ToolPose,
     Wait,
 )
 from xei_lang.ir.skill_plan import Side

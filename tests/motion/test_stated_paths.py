@@ -11,7 +11,8 @@ import pytest
 
 from tests.motion.sequence.bench import SRDF, URDF
 from tests.motion.stated_paths import Planned, checked, pour, screw, wipe
-from xei_lang.ir.goals import MoveTo, ToolTarget
+from xei_lang.ir.families import ToolTarget
+from xei_lang.ir.goals import MoveTo
 from xei_lang.ir.timed import TimedGoal
 from xei_lang.ir.tool_paths import Raster, Turn
 from xei_lang.motion.paths.tool_path import Array

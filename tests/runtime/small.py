@@ -12,6 +12,7 @@ from itertools import pairwise
 from pathlib import Path
 
 from xei_lang.diagnostics import Span
+from xei_lang.ir.families import Family, ToolPose, ToolTarget
 from xei_lang.ir.geometry import Cylinder, Pose, Primitive
 from xei_lang.ir.goals import (
     Action,
@@ -19,7 +20,6 @@ from xei_lang.ir.goals import (
     Confirm,
     Detach,
     Epoch,
-    Family,
     GoalKind,
     Grip,
     JointTarget,
@@ -30,8 +30,6 @@ from xei_lang.ir.goals import (
     Perceive,
     SetDo,
     SlideMove,
-    ToolPose,
-    ToolTarget,
     Wait,
 )
 from xei_lang.ir.skill_plan import Argument, ObjectRef, SkillPlan, Step

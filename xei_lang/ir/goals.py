@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 from xei_lang.diagnostics import Span
-from xei_lang.ir.geometry import Pose, Vec3
+from xei_lang.ir.families import Family, ToolTarget
+from xei_lang.ir.geometry import Pose
 from xei_lang.ir.skill_plan import Side
 from xei_lang.ir.tool_paths import ToolPath
-from xei_lang.record import Record, record
 
 if TYPE_CHECKING:
     import networkx
@@ -26,52 +26,6 @@ GoalKind = Literal[
 ]  # fmt: skip
 RunEvent = Literal["start", "pause", "resume", "await", "stop"]
 PathKind = Literal["free", "linear", "arc", "screw", "raster"]
-
-
-@record
-class ToolPose(Record):
-    """One member of a family: the grasp frame of the gripper in the reference frame (z approaches, y opens).
-
-    `name` tells people what it is: `from the side, 45 deg down, azimuth 30 deg, 35 mm under the top`.
-    `cost` ranks members that are otherwise alike (smaller is better).
-    """
-
-    name: str
-    T_reference_tool: Pose
-    cost: float = 0.0
-
-
-@record
-class Family(Record):
-    """Alternative tool poses about one reference, usually the grasps of one object.
-
-    `symmetric` says that the reference may be turned about its z axis without any difference (a round tube
-    in a round slot), which a planner may use where it sets the object down.
-    """
-
-    id: str
-    reference: str
-    members: tuple[ToolPose, ...]
-    symmetric: bool = False
-
-
-@record
-class ToolTarget(Record):
-    """A pose of the tool, up to the choice of a member of the family:
-
-    `translate(offset_base_m) @ T_base_reference @ T_reference_tool @ translate(offset_tool_m)`.
-
-    `offset_base_m` lifts or lowers in the base frame, `offset_tool_m` backs off along the approach (negative
-    z). With `turn_reference`, and a symmetric family, the reference may also be turned about its own z axis.
-    """
-
-    family: str
-    T_base_reference: Pose
-    offset_base_m: Vec3 = (0.0, 0.0, 0.0)
-    offset_tool_m: Vec3 = (0.0, 0.0, 0.0)
-    turn_reference: bool = False
-    position_tolerance_m: float = 0.001
-    rotation_tolerance_rad: float = 0.01
 
 
 @dataclass(frozen=True, slots=True)

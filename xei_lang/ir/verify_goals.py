@@ -9,12 +9,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
+from xei_lang.ir.families import Family, ToolTarget
 from xei_lang.ir.geometry import Pose, Vec3
 from xei_lang.ir.goals import (
     Attach,
     Confirm,
     Detach,
-    Family,
     Grip,
     Instrument,
     JointTarget,
@@ -25,7 +25,6 @@ from xei_lang.ir.goals import (
     Perceive,
     SetDo,
     SlideMove,
-    ToolTarget,
     Wait,
     in_hand,
 )

@@ -7,8 +7,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
+from xei_lang.ir.families import ToolTarget
 from xei_lang.ir.geometry import Vec3
-from xei_lang.ir.goals import Attach, Detach, MotionGoalGraph, MoveTo, ToolTarget
+from xei_lang.ir.goals import Attach, Detach, MotionGoalGraph, MoveTo
 from xei_lang.ir.skill_plan import Side
 
 _SAME_M = 1e-6

@@ -7,8 +7,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from xei_lang.ir.families import ToolTarget
 from xei_lang.ir.geometry import Pose, Vec3
-from xei_lang.ir.goals import JointTarget, MotionGoal, MotionGoalGraph, MoveTo, PathKind, ToolTarget
+from xei_lang.ir.goals import JointTarget, MotionGoal, MotionGoalGraph, MoveTo, PathKind
 from xei_lang.ir.tool_paths import Raster, ToolPath, Turn
 
 STATED: tuple[PathKind, ...] = ("arc", "screw", "raster")

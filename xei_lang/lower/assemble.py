@@ -6,7 +6,8 @@ import math
 from dataclasses import dataclass, field, replace
 
 from xei_lang.diagnostics import Span
-from xei_lang.ir.goals import Epoch, Family, MotionGoal, MotionGoalGraph
+from xei_lang.ir.families import Family
+from xei_lang.ir.goals import Epoch, MotionGoal, MotionGoalGraph
 from xei_lang.lower.draft import Draft
 from xei_lang.lower.walk import Scene
 

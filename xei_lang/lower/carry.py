@@ -8,8 +8,9 @@ may be tilted.
 from __future__ import annotations
 
 from xei_lang.diagnostics import Span
+from xei_lang.ir.families import ToolTarget
 from xei_lang.ir.geometry import Pose
-from xei_lang.ir.goals import JointTarget, MoveTo, Parameter, PathKind, ToolTarget
+from xei_lang.ir.goals import JointTarget, MoveTo, Parameter, PathKind
 from xei_lang.ir.skill_plan import Side
 from xei_lang.lower.draft import Draft, contacts
 from xei_lang.lower.hand import SIDES

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 
 from xei_lang.ir.geometry import Pose, Vec3
 from xei_lang.ir.skill_plan import Side
-from xei_lang.profiles.model import Profile
+from xei_lang.profiles.model import Profile, RobotDescription
 
 
 def shoulder_xy(profile: Profile, side: Side) -> tuple[float, float]:
@@ -16,18 +17,19 @@ def shoulder_xy(profile: Profile, side: Side) -> tuple[float, float]:
     It lies on the second joint's axis, where the first three axes meet; that joint's own origin is near
     enough here.
     """
-    x, y, _ = _shoulder(profile, side)
+    x, y, _ = _shoulder(profile.robot, side)
     return (x, y)
 
 
 def shoulder_height_m(profile: Profile, side: Side) -> float:
     """The shoulder's height over the base with the slide at its lower end."""
-    return _shoulder(profile, side)[2]
+    return _shoulder(profile.robot, side)[2]
 
 
-def _shoulder(profile: Profile, side: Side) -> Vec3:
-    by_child = {item.child: item for item in profile.robot.joints}
-    point, joint = (0.0, 0.0, 0.0), profile.robot.joint(f"openarm_{side}_joint2")
+@cache
+def _shoulder(robot: RobotDescription, side: Side) -> Vec3:
+    by_child = {item.child: item for item in robot.joints}
+    point, joint = (0.0, 0.0, 0.0), robot.joint(f"openarm_{side}_joint2")
     while joint is not None:
         point = joint.T_parent_joint.apply(point)
         joint = by_child.get(joint.parent)

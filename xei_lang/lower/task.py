@@ -9,7 +9,8 @@ from dataclasses import dataclass, field
 from typing import NoReturn
 
 from xei_lang.diagnostics import Span
-from xei_lang.ir.goals import Family, Parameter
+from xei_lang.ir.families import Family
+from xei_lang.ir.goals import Parameter
 from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, Side, StationRef, Step, Value
 from xei_lang.lower.arms import Choice, Destination
 from xei_lang.lower.derived import cap_meant, leads_to

@@ -10,8 +10,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from xei_lang.diagnostics import Label, Span
+from xei_lang.ir.families import Family
 from xei_lang.ir.geometry import Pose
-from xei_lang.ir.goals import Epoch, Family
+from xei_lang.ir.goals import Epoch
 from xei_lang.ir.skill_plan import Side
 from xei_lang.ir.world import Drive, World, WorldObject
 from xei_lang.profiles.model import Profile
@@ -130,8 +131,8 @@ class Scene:
 
     def riders_of(self, name: str) -> tuple[str, ...]:
         """What is fastened on the object, and on that, carriers first."""
-        names = [*self.standing, *self.riding]
-        own = [other for other in names if self.carrier_of(other) == name]
+        own = [item.object for item in self.standing.values() if item.fastened and item.support == name]
+        own += [other for other in self.riding if self.carrier_of(other) == name]
         return tuple(found for other in own for found in (other, *self.riders_of(other)))
 
     def occupant(self, place: str) -> Standing | None:

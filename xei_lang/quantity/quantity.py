@@ -47,8 +47,9 @@ class Quantity:
     @property
     def si(self) -> float:
         """The value in SI units as a float; infinite where it is too large for one."""
+        numerator, denominator = self.value.as_integer_ratio()
         try:
-            return float(self.value)
+            return numerator / denominator
         except OverflowError:
             return math.inf if self.value > 0 else -math.inf
 

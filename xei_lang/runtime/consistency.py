@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 
-from xei_lang.ir.goals import Grip, MotionGoal, MoveTo, SlideMove, ToolTarget, Wait
+from xei_lang.ir.families import ToolTarget
+from xei_lang.ir.goals import Grip, MotionGoal, MoveTo, SlideMove, Wait
 from xei_lang.ir.timed import TimedGoal
 from xei_lang.runtime.failure import Failure, failure
 from xei_lang.runtime.handoffs import TIME_TOLERANCE_S, Handoffs

@@ -7,7 +7,8 @@ from dataclasses import replace
 import pytest
 
 from tests.lower.plans import bench, obj, plan
-from xei_lang.ir.goals import Attach, Detach, MotionGoal, MotionGoalGraph, MoveTo, ToolTarget
+from xei_lang.ir.families import ToolTarget
+from xei_lang.ir.goals import Attach, Detach, MotionGoal, MotionGoalGraph, MoveTo
 from xei_lang.ir.verify_goals import verify_goals
 from xei_lang.lower import lower
 

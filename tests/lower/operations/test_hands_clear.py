@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from tests.lower.hands import apart_m, body, hand
 from tests.lower.plans import bench, moved, obj, with_object
 from tests.lower.works import grasp_of, holding, step_of, work_of
+from xei_lang.ir.families import ToolPose
 from xei_lang.ir.geometry import Box, Cylinder, Pose, Primitive
-from xei_lang.ir.goals import ToolPose
 from xei_lang.ir.skill_plan import Side
 from xei_lang.lower.operations import Planned
 from xei_lang.lower.operations.grasp import GRASP

@@ -10,8 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.lower.plans import bench, obj, plan
+from xei_lang.ir.families import ToolTarget
 from xei_lang.ir.geometry import Pose
-from xei_lang.ir.goals import MotionGoalGraph, MoveTo, ToolTarget
+from xei_lang.ir.goals import MotionGoalGraph, MoveTo
 from xei_lang.ir.skill_plan import Fact
 from xei_lang.ir.tool_paths import Turn
 from xei_lang.ir.verify_goals import verify_goals

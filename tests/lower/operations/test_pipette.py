@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 
 from tests.lower.plans import bench, obj, plan, slot
 from tests.motion.sequence.bench import moved
+from xei_lang.ir.families import ToolTarget
 from xei_lang.ir.geometry import Cylinder, Pose, Primitive
-from xei_lang.ir.goals import Instrument, MotionGoal, MotionGoalGraph, MoveTo, ToolTarget
+from xei_lang.ir.goals import Instrument, MotionGoal, MotionGoalGraph, MoveTo
 from xei_lang.ir.skill_plan import Fact
 from xei_lang.ir.verify_goals import verify_goals
 from xei_lang.lower import lower

@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from tests.lower.hands import apart_m, body
 from tests.lower.plans import bench, moved, obj, spot, surface, with_object, with_skill
 from tests.lower.works import holding, step_of, work_of
+from xei_lang.ir.families import ToolTarget
 from xei_lang.ir.geometry import Box, Cylinder, Pose, Primitive
-from xei_lang.ir.goals import ToolTarget
 from xei_lang.ir.skill_plan import Fact, Side
 from xei_lang.ir.tool_paths import Raster, Turn
 from xei_lang.lower.operations.lift import LIFT

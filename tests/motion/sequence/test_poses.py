@@ -8,8 +8,8 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
+from xei_lang.ir.families import Family, ToolPose, ToolTarget
 from xei_lang.ir.geometry import Pose
-from xei_lang.ir.goals import Family, ToolPose, ToolTarget
 from xei_lang.motion.sequence.poses import matrix, orbits, pose_of, same_grasp, tool_poses
 
 angles = st.floats(-math.pi, math.pi)

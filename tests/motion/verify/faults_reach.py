@@ -8,8 +8,9 @@ import numpy as np
 
 from tests.motion.verify.fault_bench import Bench, Fault
 from tests.motion.verify.fault_paths import bump, middle_time, ramp, resampled
+from xei_lang.ir.families import ToolTarget
 from xei_lang.ir.geometry import Pose
-from xei_lang.ir.goals import Grip, JointTarget, MoveTo, SlideMove, ToolTarget
+from xei_lang.ir.goals import Grip, JointTarget, MoveTo, SlideMove
 
 
 def wrong_goal(bench: Bench) -> Fault | None:

@@ -12,13 +12,13 @@ import numpy as np
 
 from tests.motion.verify.maker import Arm, sample, spline, trapezoid
 from xei_lang.diagnostics import Span
+from xei_lang.ir.families import Family, ToolPose, ToolTarget
 from xei_lang.ir.geometry import Box, Cylinder, Pose, Primitive
 from xei_lang.ir.goals import (
     Action,
     Attach,
     Detach,
     Epoch,
-    Family,
     Grip,
     JointTarget,
     MotionGoal,
@@ -26,8 +26,6 @@ from xei_lang.ir.goals import (
     MoveTo,
     NavToPose,
     SlideMove,
-    ToolPose,
-    ToolTarget,
     Wait,
 )
 from xei_lang.ir.timed import Attachment, JointLimit, Placement, TimedGoal, TimedPlan

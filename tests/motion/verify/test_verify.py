@@ -18,8 +18,8 @@ from tests.motion.verify.faults_motion import velocity_limit
 from tests.motion.verify.faults_touch import object_in_path
 from tests.motion.verify.scene import arm_of, limits, pick_and_place, robot, tour
 from xei_lang.diagnostics import Span
+from xei_lang.ir.families import Family, ToolPose, ToolTarget
 from xei_lang.ir.geometry import Pose
-from xei_lang.ir.goals import Family, ToolPose, ToolTarget
 from xei_lang.ir.timed import TimedPlan
 from xei_lang.motion.verify import VerifyOptions, to_diagnostics, verify_timed
 from xei_lang.motion.verify.bodies import Bodies

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 
 from xei_lang.diagnostics import Span
+from xei_lang.ir.families import Family, ToolTarget
 from xei_lang.ir.forms.canonical import Json
 from xei_lang.ir.forms.geometry_json import pose
 from xei_lang.ir.goals import (
@@ -19,7 +20,6 @@ from xei_lang.ir.goals import (
     Confirm,
     Detach,
     Epoch,
-    Family,
     Grip,
     Instrument,
     JointTarget,
@@ -31,7 +31,6 @@ from xei_lang.ir.goals import (
     Perceive,
     SetDo,
     SlideMove,
-    ToolTarget,
     Wait,
 )
 from xei_lang.ir.tool_paths import ToolPath, Turn

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 
+from xei_lang.ir.families import Family, ToolTarget
 from xei_lang.ir.forms.pose_text import millimetres, pose_text
 from xei_lang.ir.geometry import Vec3
 from xei_lang.ir.goals import (
@@ -14,7 +15,6 @@ from xei_lang.ir.goals import (
     Confirm,
     Detach,
     Epoch,
-    Family,
     Grip,
     Instrument,
     JointTarget,
@@ -26,7 +26,6 @@ from xei_lang.ir.goals import (
     Perceive,
     SetDo,
     SlideMove,
-    ToolTarget,
     Wait,
 )
 from xei_lang.ir.skill_plan import Side

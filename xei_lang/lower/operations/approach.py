@@ -4,8 +4,8 @@ is.
 
 from __future__ import annotations
 
+from xei_lang.ir.families import ToolTarget
 from xei_lang.ir.geometry import Pose
-from xei_lang.ir.goals import ToolTarget
 from xei_lang.lower.hand import Hand
 
 _FREE_M = 0.010

@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import field
 
 from xei_lang.diagnostics import Span
+from xei_lang.ir.families import Family, ToolTarget
 from xei_lang.ir.geometry import Pose, Vec3
-from xei_lang.ir.goals import Family, ToolTarget
 from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, Side, Step
 from xei_lang.lower.parameters import Layers, Setting
 from xei_lang.lower.walk import Scene, Standing

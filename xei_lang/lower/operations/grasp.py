@@ -6,7 +6,7 @@ import math
 from typing import NoReturn
 
 from xei_lang.diagnostics import Label
-from xei_lang.ir.goals import Family, ToolTarget
+from xei_lang.ir.families import Family, ToolTarget
 from xei_lang.ir.skill_plan import ObjectRef
 from xei_lang.lower.hand import hand_of
 from xei_lang.lower.operations.approach import back_off

@@ -10,12 +10,10 @@ the object in the palm, an approach that comes from behind the object towards th
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from operator import attrgetter
-from typing import Any
+from operator import itemgetter
 
+from xei_lang.ir.families import Members, Point, Turned
 from xei_lang.ir.geometry import Box, Capsule, Cylinder, Pose, Shape, Sphere, Vec3
-from xei_lang.ir.goals import ToolPose
 from xei_lang.lower.hand import Hand
 from xei_lang.lower.operations.approach import standoff_needed_m
 from xei_lang.lower.operations.grasp_ways import (
@@ -25,7 +23,6 @@ from xei_lang.lower.operations.grasp_ways import (
     ROUND_RAD,
     WAYS,
     Tilt,
-    Way,
 )
 from xei_lang.record import Record, record
 
@@ -75,21 +72,21 @@ class Grasps(Record):
     them clear of the object.
     """
 
-    members: tuple[ToolPose, ...]
+    members: Members
     standoff_m: float
 
 
-_Height = tuple[str, Vec3, float, float]
-"""A grasp point on the object's axis: its words, where it is in the object's frame, what it costs in
-millionths, and the way back that it needs (m).
-"""
+_Row = tuple[float, Turned, Point]
+
+_Height = tuple[float, Point]
+"""A grasp point on the object's axis, in the object's frame, and what it costs in millionths."""
 
 _Heading = tuple[float, float]
 """Of a heading its cosine to the way from shoulder to object, and how far it points up: the z of its unit
 vector in the base frame.
 """
 
-_COST = attrgetter("cost")
+_COST = itemgetter(0)
 
 
 def closings(shape: Shape) -> tuple[Closing, ...]:
@@ -121,19 +118,22 @@ def grasps(request: Request) -> Grasps | None:
     ways = WAYS[request.closing.headings_rad]
     headings = _in_base(request, ways.headings)
     axis_z = request.T_base_object.rotate((0.0, 0.0, 1.0))[2]
-    found: list[ToolPose] = []
+    found: list[_Row] = []
     standoff_m = 0.0
     for tilt in ways.tilts:
         hopeful = _hopeful(tilt, headings, axis_z) if tilt.elevation_deg in request.elevations_deg else []
         if not hopeful:
             continue
         deepest_m = _deepest(request, tilt)
-        rolls = [(roll.ways, _heights(request, tilt, roll.drop_m, deepest_m)) for roll in tilt.rolls]
-        found += _members(hopeful, rolls)
-        standoff_m = max([standoff_m, *(height[3] for _, heights in rolls for height in heights)])
+        rolls: list[tuple[tuple[Turned, ...], list[_Height]]] = []
+        for roll in tilt.rolls:
+            heights, needed_m = _heights(request, tilt, roll.drop_m, deepest_m)
+            rolls.append((roll.ways, heights))
+            standoff_m = max(standoff_m, needed_m)
+        found += _rows(hopeful, rolls)
     # They were made in the order of their names, in which those of one cost stay.
     found.sort(key=_COST)
-    return Grasps(tuple(found), standoff_m) if found else None
+    return Grasps(Members(found), standoff_m) if found else None
 
 
 def _in_base(request: Request, headings: tuple[Vec3, ...]) -> list[_Heading]:
@@ -157,47 +157,38 @@ def _hopeful(tilt: Tilt, headings: list[_Heading], axis_z: float) -> list[tuple[
     ]
 
 
-def _members(
-    hopeful: list[tuple[int, float]], rolls: list[tuple[tuple[Way, ...], list[_Height]]]
-) -> list[ToolPose]:
-    """The members at one tilt, in the order of their names; their costs, of about 0 .. 1, have six decimals.
-
-    They are filled field by field instead of by calling their classes, which is the quicker by a third where
-    there are hundreds of them.
+def _rows(
+    hopeful: list[tuple[int, float]], rolls: list[tuple[tuple[Turned, ...], list[_Height]]]
+) -> list[_Row]:
+    """The members at one tilt, in the order of their names; their costs, of about 0 .. 1, have six
+    decimals.
     """
-    found: list[ToolPose] = []
-    append = found.append
-    bare: Callable[[type], Any] = object.__new__
-    for number, way_cost in hopeful:
-        millionths = 1e6 * way_cost + 0.5
-        for ways, heights in rolls:
-            words, quaternion = ways[number]
-            for under, point_m, height_cost, _ in heights:
-                pose: Any = bare(Pose)
-                pose.position_m = point_m
-                pose.quaternion = quaternion
-                member: Any = bare(ToolPose)
-                member.name = words + under
-                member.T_reference_tool = pose
-                member.cost = (millionths + height_cost) // 1.0 / 1e6
-                append(member)
-    return found
+    return [
+        ((millionths + height_cost) // 1.0 / 1e6, turned, point)
+        for number, way_cost in hopeful
+        for millionths in (1e6 * way_cost + 0.5,)
+        for ways, heights in rolls
+        for turned in (ways[number],)
+        for height_cost, point in heights
+    ]
 
 
-def _heights(request: Request, tilt: Tilt, drop_m: float, deepest_m: float) -> list[_Height]:
-    """Heights of the grasp point above the object's bottom that keep floor, palm and standoff; highest first,
-    which is cheapest first.
+def _heights(request: Request, tilt: Tilt, drop_m: float, deepest_m: float) -> tuple[list[_Height], float]:
+    """Heights of the grasp point above the object's bottom that keep floor, palm and standoff, highest first,
+    which is cheapest first; and the longest way back that one of them needs (m).
     """
     top, half = request.height_m, request.closing.half_depth_m
     lowest = max(request.floor_m + request.clearance_m + drop_m, top - deepest_m)
     found: list[_Height] = []
+    longest_m = 0.0
     for exact in _sampled(request, lowest):
         height = math.ceil(exact * 10_000 - 1e-6) / 10_000
         standoff_m = standoff_needed_m(top - height, half, tilt.down, tilt.level, request.hand)
         if standoff_m <= request.standoff_m + 1e-9:
             under = f", {(top - height) * 1000:.1f} mm under the top"
-            found.append((under, (0.0, 0.0, height), 1e6 * (0.1 * (1.0 - height / top)), standoff_m))
-    return found
+            found.append((1e6 * (0.1 * (1.0 - height / top)), (under, (0.0, 0.0, height))))
+            longest_m = max(longest_m, standoff_m)
+    return found, longest_m
 
 
 def _sampled(request: Request, lowest: float) -> tuple[float, ...]:

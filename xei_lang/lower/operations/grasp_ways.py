@@ -11,7 +11,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from xei_lang.ir.geometry import Pose, Quaternion, Vec3
+from xei_lang.ir.families import Turned
+from xei_lang.ir.geometry import Pose, Vec3
 from xei_lang.lower.hand import drop_m, tool_axes
 
 ELEVATIONS_DEG = (0.0, 30.0, 45.0, 60.0, 90.0)
@@ -23,9 +24,6 @@ FACES_X_RAD = (0.0, math.pi)
 FACES_Y_RAD = (math.pi / 2, -math.pi / 2)
 """Headings along the x and the y axis of a box: the jaws close on the other pair of faces."""
 
-Way = tuple[str, Quaternion]
-"""The words for a way, and the tool's orientation in the object's frame."""
-
 
 @dataclass(frozen=True, slots=True)
 class Roll:
@@ -34,7 +32,7 @@ class Roll:
     """
 
     drop_m: float
-    ways: tuple[Way, ...]
+    ways: tuple[Turned, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +69,7 @@ def _level(heading_rad: float) -> Vec3:
 
 def _roll(elevation_deg: float, headings_rad: list[float], turned: bool) -> Roll:
     elevation = math.radians(elevation_deg)
-    ways: list[Way] = []
+    ways: list[Turned] = []
     for heading in headings_rad:
         pose = Pose.from_axes((0.0, 0.0, 0.0), *tool_axes(_level(heading), elevation, turned))
         ways.append((_words(elevation_deg, heading, turned), pose.quaternion))

@@ -10,8 +10,8 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+from xei_lang.ir.families import ToolTarget
 from xei_lang.ir.geometry import Pose
-from xei_lang.ir.goals import ToolTarget
 from xei_lang.ir.skill_plan import ObjectRef, Side
 from xei_lang.lower.hand import SIDES
 from xei_lang.lower.operations import grasp

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import math
+from operator import itemgetter
 
 from xei_lang.ir.geometry import Vec3
 from xei_lang.ir.skill_plan import Side
 from xei_lang.lower.operations.base import Work
 from xei_lang.lower.parameters import Setting, computed_length
 from xei_lang.lower.robot import shoulder_xy
+from xei_lang.lower.walk import Standing
+from xei_lang.profiles.model import LabObject
 
 _AHEAD_M = 0.32
 _INWARDS = 2 / 3
 """Where a single arm works, from the robot's middle to its shoulder."""
 _HAND_M = 0.12
 """How far hand and wrist reach about what they hold while they turn."""
+_ALIKE_M = 1e-9
 
 
 def room_in_air(work: Work, sides: tuple[Side, ...], radius_m: float) -> tuple[Vec3, Setting, Setting]:
@@ -43,10 +47,9 @@ def _highest(work: Work, x: float, y: float, radius_m: float) -> float:
     T_base_world = T_world_base.inverse()
     up_x, up_y, up_z = T_world_base.rotate((0.0, 0.0, 1.0))
     qx, qy, qz = T_world_base.apply((x, y, 0.0))
-    objects = {item.name: item for item in work.profile.objects}
-    top = 0.0
+    near: list[tuple[float, float, Standing, LabObject]] = []
     for name, standing in work.scene.standing.items():
-        known = objects.get(name)
+        known = work.profile.object(name)
         if known is None:
             continue
         px, py, pz = standing.T_world_object.position_m
@@ -54,11 +57,17 @@ def _highest(work: Work, x: float, y: float, radius_m: float) -> float:
         over = dx * up_x + dy * up_y + dz * up_z
         length, width, height = known.size_m
         reach = radius_m + length + width + height
-        if dx * dx + dy * dy + dz * dz - over * over > reach * reach:
-            continue
+        if dx * dx + dy * dy + dz * dz - over * over <= reach * reach:
+            near.append((height - over, over, standing, known))
+    top = 0.0
+    for most, over, standing, known in sorted(near, key=itemgetter(0), reverse=True):
+        # None is higher than upright.
+        if most < top - _ALIKE_M:
+            break
         # The circle's middle at the height of the object's origin.
         point = (qx - over * up_x, qy - over * up_y, qz - over * up_z)
         beside_x, beside_y, _ = standing.T_world_object.locate(point)
+        length, width, height = known.size_m
         away = math.hypot(max(0.0, abs(beside_x) - length / 2), max(0.0, abs(beside_y) - width / 2))
         if away < radius_m:
             top = max(top, (T_base_world @ standing.T_world_object).apply((0.0, 0.0, height))[2])

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from xei_lang.ir.families import ToolTarget
 from xei_lang.ir.geometry import Vec3
-from xei_lang.ir.goals import ToolTarget
 from xei_lang.ir.skill_plan import ObjectRef
 from xei_lang.lower.operations.base import Aim, Operation, Planned, Work
 from xei_lang.lower.operations.held import in_hand

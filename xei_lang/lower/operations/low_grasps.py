@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from xei_lang.diagnostics import Label
+from xei_lang.ir.families import ToolPose
 from xei_lang.ir.geometry import Box, Cylinder, Pose
-from xei_lang.ir.goals import ToolPose
 from xei_lang.lower.hand import drop_m, hand_of, tool_axes
 from xei_lang.lower.operations.base import Work
 from xei_lang.lower.operations.caps import Cap

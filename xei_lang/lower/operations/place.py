@@ -5,8 +5,8 @@ approach.
 from __future__ import annotations
 
 from xei_lang.diagnostics import Label
+from xei_lang.ir.families import ToolTarget
 from xei_lang.ir.geometry import Box, Pose
-from xei_lang.ir.goals import ToolTarget
 from xei_lang.ir.skill_plan import PlaceRef
 from xei_lang.lower.hand import hand_of
 from xei_lang.lower.operations.approach import back_off

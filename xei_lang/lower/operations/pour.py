@@ -11,8 +11,8 @@ import math
 from fractions import Fraction
 
 from xei_lang.diagnostics import Label
+from xei_lang.ir.families import ToolTarget
 from xei_lang.ir.geometry import Cylinder, Pose, Vec3
-from xei_lang.ir.goals import ToolTarget
 from xei_lang.ir.skill_plan import ObjectRef, Side
 from xei_lang.ir.tool_paths import Turn
 from xei_lang.lower.operations.base import Aim, Axis, Operation, Planned, Work

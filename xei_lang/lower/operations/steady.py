@@ -16,8 +16,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from xei_lang.diagnostics import Label
+from xei_lang.ir.families import Family, ToolTarget
 from xei_lang.ir.geometry import Cylinder, Pose
-from xei_lang.ir.goals import Family, ToolTarget
 from xei_lang.ir.skill_plan import ObjectRef, Side
 from xei_lang.lower.hand import SIDES, hand_of
 from xei_lang.lower.operations.approach import back_off

@@ -11,8 +11,8 @@ from collections.abc import Iterator
 from itertools import product
 
 from xei_lang.diagnostics import Label, did_you_mean
+from xei_lang.ir.families import Family, ToolPose, ToolTarget
 from xei_lang.ir.geometry import Pose, Quaternion, Vec3
-from xei_lang.ir.goals import Family, ToolPose, ToolTarget
 from xei_lang.ir.skill_plan import ObjectRef
 from xei_lang.lower.hand import hand_of, tool_axes
 from xei_lang.lower.operations.base import Aim, Operation, Planned, Work

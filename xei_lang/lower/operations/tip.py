@@ -10,8 +10,8 @@ from __future__ import annotations
 from fractions import Fraction
 
 from xei_lang.diagnostics import Label
+from xei_lang.ir.families import ToolTarget
 from xei_lang.ir.geometry import Pose
-from xei_lang.ir.goals import ToolTarget
 from xei_lang.ir.skill_plan import ObjectRef, PlaceRef
 from xei_lang.lower.operations.base import Aim, Operation, Planned, Work
 from xei_lang.lower.operations.lift import along

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import math
 
+from xei_lang.ir.families import Family, ToolPose, ToolTarget
 from xei_lang.ir.geometry import Pose
-from xei_lang.ir.goals import Family, ToolPose, ToolTarget
 from xei_lang.ir.tool_paths import Turn
 from xei_lang.lower.hand import hand_of, tool_axes
 from xei_lang.lower.operations.approach import back_off

@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 
 from xei_lang.diagnostics import Label
+from xei_lang.ir.families import ToolTarget
 from xei_lang.ir.geometry import Pose
-from xei_lang.ir.goals import ToolTarget
 from xei_lang.ir.skill_plan import PlaceRef
 from xei_lang.ir.tool_paths import Raster
 from xei_lang.lower.operations.base import Aim, Area, Operation, Planned, Work
@@ -116,9 +116,8 @@ def _refuse_outside(work: Work, seat: Seat, host: LabObject, region: tuple[float
             (Label(host.span, "its shape is stated here"),),
         )
     T_world_host = work.scene.standing[host.name].T_world_object
-    objects = {item.name: item for item in work.profile.objects}
     for name, other in work.scene.standing.items():
-        thing = objects.get(name)
+        thing = work.profile.object(name)
         if thing is None or name == host.name:
             continue
         ox, oy, oz = T_world_host.locate(other.T_world_object.position_m)

@@ -5,14 +5,8 @@ way, what would help.
 from __future__ import annotations
 
 from xei_lang.diagnostics import Diagnostic
-from xei_lang.ir.goals import (
-    JointTarget,
-    MotionGoal,
-    MotionGoalGraph,
-    MoveTo,
-    SlideMove,
-    ToolTarget,
-)
+from xei_lang.ir.families import ToolTarget
+from xei_lang.ir.goals import JointTarget, MotionGoal, MotionGoalGraph, MoveTo, SlideMove
 from xei_lang.ir.verify_tool_paths import path_faults
 from xei_lang.motion.sequence.assemble import Untimed
 from xei_lang.motion.sequence.blame_way import blame_transit, mm, who

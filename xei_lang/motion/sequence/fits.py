@@ -13,8 +13,9 @@ from typing import Any
 
 import numpy as np
 
+from xei_lang.ir.families import ToolTarget
 from xei_lang.ir.geometry import Pose, Primitive
-from xei_lang.ir.goals import MoveTo, ToolTarget
+from xei_lang.ir.goals import MoveTo
 from xei_lang.motion.collision.bodies import coal_shape
 from xei_lang.motion.sequence.context import Context
 from xei_lang.motion.sequence.poses import matrix

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from xei_lang.ir.families import Family, ToolTarget
 from xei_lang.ir.geometry import Pose
-from xei_lang.ir.goals import Family, ToolTarget
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]

@@ -12,17 +12,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from xei_lang.ir.goals import (
-    Attach,
-    Detach,
-    Family,
-    Grip,
-    JointTarget,
-    MotionGoal,
-    MotionGoalGraph,
-    MoveTo,
-    ToolTarget,
-)
+from xei_lang.ir.families import Family, ToolTarget
+from xei_lang.ir.goals import Attach, Detach, Grip, JointTarget, MotionGoal, MotionGoalGraph, MoveTo
 from xei_lang.ir.skill_plan import Side
 from xei_lang.motion.sequence.legs import Leg, legs_of
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from xei_lang.ir.families import Family
 from xei_lang.ir.geometry import Pose
-from xei_lang.ir.goals import Family
 from xei_lang.ir.skill_plan import Side
 from xei_lang.ir.timed import Attachment
 from xei_lang.ir.world import World

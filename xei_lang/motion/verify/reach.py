@@ -7,8 +7,9 @@ import math
 
 import numpy as np
 
+from xei_lang.ir.families import Family, ToolTarget
 from xei_lang.ir.geometry import Pose
-from xei_lang.ir.goals import Family, Grip, JointTarget, MotionGoal, MoveTo, SlideMove, ToolTarget
+from xei_lang.ir.goals import Grip, JointTarget, MotionGoal, MoveTo, SlideMove
 from xei_lang.ir.timed import TimedGoal
 from xei_lang.motion.verify.context import Context, pose_error
 from xei_lang.motion.verify.evaluate import Array, grid

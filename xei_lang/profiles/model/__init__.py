@@ -7,6 +7,9 @@ The pydantic models that validate the YAML files stand in `profiles/schema/`.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import field
+
 from xei_lang.profiles.model.bank import (
     MOST_TIMES,
     ArgSpec,
@@ -104,7 +107,13 @@ class Profile(Record):
     files: tuple[tuple[str, str], ...]
     robot: RobotDescription
     hazards: tuple[tuple[str, tuple[str, ...]], ...] = ()
+    _by_name: Mapping[str, LabObject] = field(init=False)
+
+    def __post_init__(self) -> None:
+        # The first one of a name, where a profile that is not sound has two.
+        by_name = {item.name: item for item in reversed(self.objects)}
+        object.__setattr__(self, "_by_name", by_name)
 
     def object(self, name: str) -> LabObject | None:
         """The object of this name, or None."""
-        return next((item for item in self.objects if item.name == name), None)
+        return self._by_name.get(name)

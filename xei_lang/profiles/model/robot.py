@@ -47,6 +47,10 @@ class RobotDescription(Record):
     joints: tuple[RobotJoint, ...]
     states: tuple[NamedState, ...]
 
+    def __hash__(self) -> int:
+        """By little: what is worked out of a description once is kept by it, and few are there at a time."""
+        return hash((self.root, self.links))
+
     def joint(self, name: str) -> RobotJoint | None:
         """The joint of this name, or None."""
         return next((item for item in self.joints if item.name == name), None)
