@@ -7,47 +7,15 @@ words and repairs nothing.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
-from xei_lang.ir.families import Family, ToolTarget
-from xei_lang.ir.geometry import Pose, Vec3
-from xei_lang.ir.goals import (
-    Attach,
-    Confirm,
-    Detach,
-    Grip,
-    Instrument,
-    JointTarget,
-    MotionGoal,
-    MotionGoalGraph,
-    MoveTo,
-    NavToPose,
-    Perceive,
-    SetDo,
-    SlideMove,
-    Wait,
-    in_hand,
-)
-from xei_lang.ir.skill_plan import Side
+from xei_lang.ir.families import Family
+from xei_lang.ir.goals import MotionGoalGraph, NavToPose, Perceive
+from xei_lang.ir.verify_actions import action_faults, pose_fault
+from xei_lang.ir.verify_hands import hand_problems
 from xei_lang.ir.verify_riders import rider_problems
 from xei_lang.ir.verify_runs import run_problems
 from xei_lang.ir.verify_tool_paths import path_problems
-
-_UNIT = 1e-6
-_ACTION_OF_KIND: dict[str, type] = {
-    "move_to": MoveTo,
-    "open_gripper": Grip,
-    "close_gripper": Grip,
-    "set_do": SetDo,
-    "slide_move": SlideMove,
-    "nav_to_pose": NavToPose,
-    "wait": Wait,
-    "perceive": Perceive,
-    "confirm": Confirm,
-    "instrument": Instrument,
-    "attach": Attach,
-    "detach": Detach,
-}
 
 
 def verify_goals(graph: MotionGoalGraph) -> tuple[str, ...]:
@@ -64,10 +32,10 @@ def verify_goals(graph: MotionGoalGraph) -> tuple[str, ...]:
     problems = [*_ids_and_edges(graph), *_families(graph), *_epochs(graph)]
     families = {family.id for family in graph.families}
     for goal in graph.goals:
-        problems.extend(f"goal `{goal.id}`: {text}" for text in _goal(goal, families))
+        problems.extend(f"goal `{goal.id}`: {text}" for text in action_faults(goal, families))
     problems.extend(path_problems(graph))
     problems.extend(run_problems(graph))
-    problems.extend(_hands(graph))
+    problems.extend(hand_problems(graph))
     problems.extend(rider_problems(graph))
     return tuple(problems)
 
@@ -103,7 +71,7 @@ def _families(graph: MotionGoalGraph) -> Iterator[str]:
 
 def _members(family: Family) -> Iterator[str]:
     for member in family.members:
-        fault = _pose_fault(member.T_reference_tool)
+        fault = pose_fault(member.T_reference_tool)
         if fault:
             yield f"family `{family.id}`: member `{member.name}` {fault}"
         if not math.isfinite(member.cost):
@@ -114,7 +82,7 @@ def _epochs(graph: MotionGoalGraph) -> Iterator[str]:
     for index, epoch in enumerate(graph.epochs):
         if epoch.index != index:
             yield f"epoch {epoch.index}: expected number {index}"
-        fault = _pose_fault(epoch.T_world_base)
+        fault = pose_fault(epoch.T_world_base)
         if fault:
             yield f"epoch {epoch.index}: its base pose {fault}"
     current, perceived = 0, False
@@ -134,122 +102,3 @@ def _epochs(graph: MotionGoalGraph) -> Iterator[str]:
 def _arrival(graph: MotionGoalGraph, goal_id: str, action: NavToPose, epoch: int) -> Iterator[str]:
     if epoch < len(graph.epochs) and graph.epochs[epoch].T_world_base != action.T_world_base:
         yield f"goal `{goal_id}`: it drives elsewhere than epoch {epoch} stands"
-
-
-def _goal(goal: MotionGoal, families: set[str]) -> Iterator[str]:
-    if not isinstance(goal.action, _ACTION_OF_KIND.get(goal.kind, ())):
-        yield f"its action does not fit the kind `{goal.kind}`"
-    if not 0.0 <= goal.min_duration_s <= goal.max_duration_s:
-        yield f"its durations {goal.min_duration_s:g} .. {goal.max_duration_s:g} s are no range"
-    if isinstance(goal.action, MoveTo):
-        yield from _move(goal.action, families)
-    elif isinstance(goal.action, Attach):
-        if goal.action.family not in families:
-            yield f"there is no family `{goal.action.family}`"
-    else:
-        yield from _numbers(goal.action)
-
-
-def _move(action: MoveTo, families: set[str]) -> Iterator[str]:
-    if not 0.0 < action.speed_fraction <= 1.0:
-        yield f"its speed fraction {action.speed_fraction:g} is not in (0, 1]"
-    target = action.target
-    if isinstance(target, JointTarget):
-        if not target.joints or not all(math.isfinite(value) for _, value in target.joints):
-            yield f"its configuration `{target.name}` has no finite joints"
-        return
-    if target.family not in families:
-        yield f"there is no family `{target.family}`"
-    if action.arm is None:
-        yield "it aims a tool without an arm"
-    fault = _pose_fault(target.T_base_reference)
-    if fault:
-        yield f"its reference {fault}"
-    if not _finite(target.offset_base_m) or not _finite(target.offset_tool_m):
-        yield "its offsets are not finite"
-
-
-def _numbers(action: object) -> Iterator[str]:
-    if isinstance(action, Grip) and not (math.isfinite(action.opening_m) and action.opening_m >= 0.0):
-        yield f"its opening {action.opening_m:g} m is no gap"
-    if isinstance(action, SlideMove) and not math.isfinite(action.height_m):
-        yield "its height is not finite"
-    if isinstance(action, Wait) and not (math.isfinite(action.duration_s) and action.duration_s >= 0.0):
-        yield "its wait is no duration"
-    if isinstance(action, NavToPose):
-        fault = _pose_fault(action.T_world_base)
-        if fault:
-            yield f"its base pose {fault}"
-    if isinstance(action, Detach):
-        fault = _pose_fault(action.T_base_object)
-        if fault:
-            yield f"its object's pose {fault}"
-
-
-def _hands(graph: MotionGoalGraph) -> Iterator[str]:
-    """Attach and detach in turn for each arm, of one object. Only where it is left to the other hand may both
-    hold it, and then nothing but jaws moves.
-    """
-    held: dict[Side, Attach] = {}
-    opened: set[Side] = set()
-    for index, goal in enumerate(graph.goals):
-        action = goal.action
-        yield from _open_jaws(goal, held, opened)
-        shared = len({item.object for item in held.values()}) < len(held)
-        if shared and not isinstance(action, (Grip, Detach, Wait, Confirm, SetDo, Instrument)):
-            yield f"goal `{goal.id}`: it moves while two hands hold one object"
-        if isinstance(action, Attach):
-            if action.arm in held:
-                yield f"goal `{goal.id}`: the {action.arm} hand already holds `{held[action.arm].object}`"
-            other: Side | None = next(
-                (arm for arm, item in held.items() if item.object == action.object), None
-            )
-            if other is not None and not _is_left(graph, index, other, action):
-                yield f"goal `{goal.id}`: `{action.object}` is already in a hand"
-            held[action.arm] = action
-        elif isinstance(action, Detach):
-            found = held.pop(action.arm, None)
-            if found is None or found.object != action.object:
-                yield f"goal `{goal.id}`: the {action.arm} hand does not hold `{action.object}`"
-            holders = [in_hand(arm) for arm, item in held.items() if item.object == action.object]
-            if action.place not in holders and (holders or action.place.endswith(" hand")):
-                yield f"goal `{goal.id}`: `{action.object}` is not left where a hand holds it"
-        elif isinstance(action, MoveTo) and isinstance(action.target, ToolTarget):
-            found = held.get(action.arm) if action.arm else None
-            if found is not None and found.family != action.target.family:
-                yield f"goal `{goal.id}`: it aims by another family than the one it holds by"
-
-
-def _open_jaws(goal: MotionGoal, held: Mapping[Side, Attach], opened: set[Side]) -> Iterator[str]:
-    """A hand whose jaws were opened about its object moves on only once it has let go of that; `opened` is
-    kept.
-    """
-    action = goal.action
-    if isinstance(action, Grip):
-        opened.discard(action.arm)
-        if goal.kind == "open_gripper" and action.arm in held:
-            opened.add(action.arm)
-    elif isinstance(action, Detach):
-        opened.discard(action.arm)
-    elif isinstance(action, MoveTo):
-        for arm in sorted(opened if action.arm is None else opened & {action.arm}):
-            name = held[arm].object
-            yield f"goal `{goal.id}`: the {arm} hand moves with open jaws, and still holds `{name}`"
-
-
-def _is_left(graph: MotionGoalGraph, index: int, giver: Side, taken: Attach) -> bool:
-    """Whether the next detach of an object is by the hand that held it first, to the one that takes it."""
-    later = (goal.action for goal in graph.goals[index + 1 :])
-    found = next((act for act in later if isinstance(act, Detach) and act.object == taken.object), None)
-    return found is not None and found.arm == giver and found.place == in_hand(taken.arm)
-
-
-def _pose_fault(pose: Pose) -> str:
-    if not _finite(pose.position_m) or not all(math.isfinite(value) for value in pose.quaternion):
-        return "is not finite"
-    norm = math.sqrt(sum(value * value for value in pose.quaternion))
-    return "" if abs(norm - 1.0) <= _UNIT else "has no unit quaternion"
-
-
-def _finite(vector: Vec3) -> bool:
-    return all(math.isfinite(value) for value in vector)
