@@ -93,10 +93,19 @@ def test_where_tells_of_frames_too(lab: Path):
     assert near.code == 2 and "did you mean `camera`?" in near.err
 
 
-def test_where_of_an_unknown_name_offers_a_near_one(lab: Path):
-    ran = xei("world", "where", "tub_1", cwd=lab)
+@pytest.mark.parametrize(
+    ("name", "hint"),
+    [
+        ("tub_1", "did you mean `tube_1`?"),
+        ("beakr", "did you mean `beaker_1` or `beaker_2` or `beaker_3`?"),
+        ("waste beakr", "did you mean `waste beaker`?"),
+        ("centrifuge", "`xei world show` lists all objects"),
+    ],
+)
+def test_where_of_an_unknown_name_offers_near_ones(lab: Path, name: str, hint: str):
+    ran = xei("world", "where", name, cwd=lab)
     assert ran.code == 2
-    assert "has no object `tub_1`; did you mean `tube_1`?" in ran.err
+    assert f"has no object or frame `{name}`; {hint}" in ran.err
 
 
 def compile_(lab: Path, world: str, *more: str) -> Ran:

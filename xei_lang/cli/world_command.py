@@ -107,9 +107,9 @@ def where(
 
 def _unknown(name: str, frames: list[str], lab: Profile) -> str:
     known = [item.name for item in lab.objects] + [alias for item in lab.objects for alias in item.aliases]
-    near = did_you_mean(name, known + frames)
-    hint = f"did you mean `{near[0]}`?" if near else "`xei world show` lists all objects"
-    return f"`{lab.name}` has no object `{name}`; {hint}"
+    near = " or ".join(f"`{one}`" for one in did_you_mean(name, known + frames))
+    hint = f"did you mean {near}?" if near else "`xei world show` lists all objects"
+    return f"`{lab.name}` has no object or frame `{name}`; {hint}"
 
 
 def _ground(profile: Profile, asked: WorldOptions, *, quiet: bool, colored: bool) -> World:

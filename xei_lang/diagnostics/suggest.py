@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 import string
 from collections.abc import Iterable
 
 _LONG, _MANY = 60, 300
 """Beyond these a guess takes too long: longer names get none, among more names only those one slip away."""
 _CHARS = string.ascii_lowercase + string.digits + "_"
+_NUMBERED = re.compile(r"(.+)_(\d{1,9})")
 
 
 def edit_distance(left: str, right: str) -> int:
@@ -29,10 +31,23 @@ def did_you_mean(name: str, known: Iterable[str]) -> tuple[str, ...]:
     """At most three known names near enough to suggest, best first; nothing rather than a wild guess.
 
     A difference in case only always counts; otherwise the distance may be a third of the length, at least 1.
+    Where nothing is as near, a name may lack its number: `beaker` of `beaker_1`.
     """
+    candidates = set(known)
+    return _near(name, candidates) or _numbered(name, candidates)
+
+
+def _numbered(name: str, candidates: set[str]) -> tuple[str, ...]:
+    """The first numbered names of the word that the name comes nearest to."""
+    found = [match for match in map(_NUMBERED.fullmatch, candidates) if match]
+    words = _near(name, {match[1] for match in found})[:1]
+    of_word = [(int(match[2]), match[0]) for match in found if match[1] in words]
+    return tuple(candidate for _, candidate in sorted(of_word)[:3])
+
+
+def _near(name: str, candidates: set[str]) -> tuple[str, ...]:
     limit = max(1, len(name) // 3)
     lower = name.lower()
-    candidates = set(known)
     same = min((candidate for candidate in candidates if candidate.lower() == lower), default=None)
     if same is not None:
         return (same,)
