@@ -10,7 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from xei_lang.diagnostics import Source
-from xei_lang.ir.forms.json_reader import MAX_DEPTH, MAX_TEXT, read_json
+from xei_lang.ir.forms.json_reader import MAX_DEPTH, read_json
+from xei_lang.ir.forms.json_string import MAX_TEXT
 from xei_lang.ir.forms.json_tree import JsonNode
 
 SCALARS = st.one_of(
