@@ -19,13 +19,14 @@ from xei_lang.motion.collision import collision_scene
 from xei_lang.motion.kinematics import Solver, arm_solver
 from xei_lang.motion.robot import Robot, load_robot
 from xei_lang.motion.sequence.assemble import RATE_HZ
-from xei_lang.motion.sequence.blame import blame_group, refuse
+from xei_lang.motion.sequence.blame import blame_group
 from xei_lang.motion.sequence.blame_carry import blame_carry
 from xei_lang.motion.sequence.context import Context, planning_limits
 from xei_lang.motion.sequence.course import Course
 from xei_lang.motion.sequence.failure import BlockedTransit, Failure, Unplaced
 from xei_lang.motion.sequence.margins import margins
 from xei_lang.motion.sequence.motions import Motion
+from xei_lang.motion.sequence.refuse import refuse
 from xei_lang.motion.sequence.sections import split
 from xei_lang.motion.sequence.snapshot import Snapshot, first_snapshot
 from xei_lang.profiles.model import Profile
