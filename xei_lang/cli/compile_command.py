@@ -11,7 +11,7 @@ from xei_lang.cli.emit import EMITTED, passes_for, text_after, text_of, write_al
 from xei_lang.cli.handoff_lines import SHOWN, handoff_line
 from xei_lang.cli.options import Options, WorldOptions, compiling, grounding
 from xei_lang.cli.session import Session, open_session
-from xei_lang.cli.write_file import write_text
+from xei_lang.cli.write_file import place_refused, write_text
 from xei_lang.pipeline import ALL, Handoffs, PassResult
 
 
@@ -55,9 +55,8 @@ def command(
     if print_after is not None and print_after not in [step.name for step in passes]:
         raise click.BadParameter(f"`--emit {stage}` does not get as far", param_hint="--print-after")
     session = open_session(file, options, allow_unmapped=allow_unmapped, strict=strict)
+    _stop_without_a_place(session, stage, output)
     session = session.grounded_by(world)
-    if stage is None or stage == "bag":
-        _stop_without_a_place(session, _folder(session, output))
 
     def watch(result: PassResult) -> None:
         if stage is None and not options.quiet and not result.failed and result.pass_name in SHOWN:
@@ -87,10 +86,14 @@ def _folder(session: Session, output: Path | None) -> Path:
     return output or Path("build") / Path(session.source.file).stem
 
 
-def _stop_without_a_place(session: Session, folder: Path) -> None:
+def _stop_without_a_place(session: Session, stage: str | None, output: Path | None) -> None:
     """Planning may take minutes: that its result has no place is said before."""
-    from xei_lang.export.bundle import place_refused
+    if stage is None or stage == "bag":
+        from xei_lang.export.bundle import place_refused as bundle_refused
 
-    code = session.show(place_refused(folder))
+        refused = bundle_refused(_folder(session, output))
+    else:
+        refused = () if output is None else place_refused(output)
+    code = session.show(refused)
     if code:
         sys.exit(code)

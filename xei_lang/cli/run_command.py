@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from contextlib import nullcontext
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
@@ -14,9 +15,10 @@ import click
 from xei_lang.cli.exit_codes import RUN_STOPPED, WRONG_USAGE
 from xei_lang.cli.options import Options, WorldOptions, compiling, grounding
 from xei_lang.cli.session import Session, open_session
+from xei_lang.cli.write_file import place_refused
 from xei_lang.diagnostics import Diagnostic, Diagnostics
 from xei_lang.ir.trace import TraceEvent
-from xei_lang.pipeline import ALL, Handoffs
+from xei_lang.pipeline import ALL, Handoffs, PassResult
 from xei_lang.runtime.executors import AVAILABLE
 from xei_lang.syntax.reading import read_source
 
@@ -82,12 +84,21 @@ def command(
     """
     if math.isnan(speed):
         raise click.BadParameter("nan is no speed", param_hint="--speed")
-    session = open_session(file, options, allow_unmapped=True).grounded_by(world)
-    given, problems = _answers(answers_path)
+    session = open_session(file, options, allow_unmapped=True)
+    answers, problems = _answers(answers_path)
+    if trace_path is not None:
+        problems = (*place_refused(trace_path, "--trace", made=False), *problems)
     code = session.show(problems)
     if code:
         sys.exit(code)
-    made = session.compile(ALL, lambda _result: None)
+    session = session.grounded_by(world)
+
+    def watch(result: PassResult) -> None:
+        # Before motion is planned, which may take minutes, and long before the robot waits for an answer.
+        if result.pass_name == "lower" and not result.failed:
+            _stop_where_not_asked(session, answers, result)
+
+    made = session.compile(ALL, watch)
     from xei_lang.cli.perceived import perception_of
 
     assert made.timed is not None
@@ -98,7 +109,7 @@ def command(
     code = session.show(problems)
     if code:
         sys.exit(code)
-    sys.exit(_run(session, made, executor, trace_path, given, speed, perception))
+    sys.exit(_run(session, made, executor, trace_path, answers, speed, perception))
 
 
 def _run(
@@ -133,15 +144,23 @@ def _run(
 
 
 def _answers(path: Path | None) -> tuple[Answers, Diagnostics]:
-    from xei_lang.runtime.answers import Answers, parse_answers
+    from xei_lang.runtime.answers import Answers, read_answers
 
-    given: Mapping[str, bool] = {}
-    problems: Diagnostics = ()
+    written, problems = Answers(), ()
     if path is not None:
         source, problems = read_source(path, str(path))
         if source is not None:
-            given, problems = parse_answers(source.text, source.file)
-    return Answers(given, _ask if sys.stdin.isatty() else None), problems
+            written, problems = read_answers(source)
+    return replace(written, ask=_ask if sys.stdin.isatty() else None), problems
+
+
+def _stop_where_not_asked(session: Session, answers: Answers, lowered: PassResult) -> None:
+    from xei_lang.runtime.answers import check_answers
+
+    assert lowered.made.graph is not None
+    code = session.show(check_answers(answers, lowered.made.graph))
+    if code:
+        sys.exit(code)
 
 
 def _ask(text: str) -> bool | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import stat
 from pathlib import Path
@@ -20,18 +21,62 @@ def write_text(path: Path, text: str) -> Diagnostics:
 
 def write_bytes(path: Path, data: bytes) -> Diagnostics:
     """As `write_text`, for what is no text."""
-    if path.is_dir():
-        message = f"`{path}` is a folder, and a file was to be written"
-        return (Diagnostic("XEI0101", message, help=("name a file with -o",)),)
+    refused = place_refused(path)
+    if refused:
+        return refused
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
         if path.exists() and not path.is_file():
             path.write_bytes(data)
         else:
-            _replace(Path(os.path.realpath(path)), data)
+            target = Path(os.path.realpath(path))
+            target.parent.mkdir(parents=True, exist_ok=True)
+            _replace(target, data)
     except OSError as error:
         return (_refused(path, error, ("choose another place with -o",)),)
     return ()
+
+
+def place_refused(path: Path, option: str = "-o", *, made: bool = True) -> Diagnostics:
+    """Why no file may be written at a place, as far as that can be told without writing one.
+
+    A file is `made` as `write_text` does, with its folders; or else it is opened where it stands.
+    """
+    try:
+        if path.is_dir() and made:
+            message = f"`{path}` is a folder, and a file was to be written"
+            return (Diagnostic("XEI0101", message, help=(f"name a file with {option}",)),)
+        if path.exists() and not (made and path.is_file()):
+            _must_open(path)
+        else:
+            _must_make(Path(os.path.realpath(path)), made)
+    except OSError as error:
+        return (_refused(path, error, (f"choose another place with {option}",)),)
+    return ()
+
+
+def _must_open(path: Path) -> None:
+    """Raise OSError where what is there cannot be written to. To open it may wait for who reads a pipe."""
+    if path.is_dir():
+        raise _error(errno.EISDIR)
+    if not os.access(path, os.W_OK):
+        raise _error(errno.EACCES)
+
+
+def _must_make(target: Path, made: bool) -> None:
+    """Raise OSError where no new file can be; `made` says that its folders are made, too."""
+    if target.is_symlink():
+        raise _error(errno.ELOOP)
+    above = next(folder for folder in target.parents if folder.exists() or not made)
+    if not above.exists():
+        raise _error(errno.ENOENT)
+    if not above.is_dir():
+        raise _error(errno.ENOTDIR)
+    if not os.access(above, os.W_OK | os.X_OK):
+        raise _error(errno.EACCES)
+
+
+def _error(number: int) -> OSError:
+    return OSError(number, os.strerror(number))
 
 
 def rewrite_text(path: Path, text: str, *, bom: bool = False) -> Diagnostics:

@@ -19,6 +19,7 @@ ENTRIES = {
     "XEI0914": Entry("a person declined to go on"),
     "XEI0915": Entry("a goal sets an output that the robot does not have"),
     "XEI0916": Entry("a file of answers cannot be used"),
+    "XEI0917": Entry("an answer to what a plan does not ask"),
     "XEI0920": Entry("a trajectory leaves the limits of a joint"),
     "XEI0921": Entry("a trajectory or a run is faster than allowed"),
     "XEI0922": Entry("a tool would leave the workspace"),
