@@ -9,6 +9,7 @@ from xei_lang.profiles.files import CALIBRATION
 from xei_lang.profiles.grid import T_object_slot, is_tip_grid, slot_keys
 from xei_lang.profiles.model import LabObject, Profile
 from xei_lang.quantity import Quantity
+from xei_lang.quantity.lengths import error_mm
 from xei_lang.world.ground import ground
 from xei_lang.world.precision import Benches, SlotPrecision
 
@@ -74,8 +75,8 @@ def _blocker(profile: Profile, holder: LabObject, name: str, found: SlotPrecisio
     weak = max(shares, key=lambda share: share.most_m, default=found.way.shares[-1]).link
     item = f"frames.{weak.name}.tolerance"
     measure = (
-        f"{mend.format(frame=weak.name)} `{name}` with an error of {found.capture_m * 1000:.1f} mm, and may "
-        f"be {found.tolerance_m * 1000:.1f} mm off"
+        f"{mend.format(frame=weak.name)} `{name}` with an error of {error_mm(found.capture_m)}, and may "
+        f"be {error_mm(found.tolerance_m)} off"
     )
     where = f"slots.{holder.name}"
     return Blocker(

@@ -25,6 +25,7 @@ from xei_lang.lower.seats import place_text
 from xei_lang.lower.task import Task, refuse_template
 from xei_lang.lower.walk import Held, Standing
 from xei_lang.profiles.model import TemplateStep
+from xei_lang.quantity.lengths import exact_mm
 
 _TAKING = (GRASP, TAKE, STEADY, CAP)
 _PATHS: tuple[PathKind, ...] = get_args(PathKind)
@@ -146,7 +147,7 @@ def _grip(task: Task, line: TemplateStep, arm: Side) -> Draft:
             "XEI0702",
             f"`{width.name}` of {width.text} is not a gap of this gripper",
             width.span or task.step.span,
-            f"expected 0 mm .. {most_m * 1000:g} mm",
+            f"expected 0 mm .. {exact_mm(most_m)}",
         )
     parameters = (*task.why_arm(line.field("arm")), width.provenance())
     action = Grip(arm, min(opening_m, most_m))

@@ -13,6 +13,7 @@ from xei_lang.lower.look import look_height
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.task import Task, refuse_template
 from xei_lang.profiles.model import TemplateStep
+from xei_lang.quantity.lengths import exact_mm
 
 _WHOLE_ROBOT = ("base", "left_arm", "right_arm", "slide")
 _BY_MAP = "the quickest way of straight legs and turns in place that the map leaves the base"
@@ -35,7 +36,7 @@ def _slide_move(task: Task, line: TemplateStep) -> Draft:
             "XEI0702",
             f"`{setting.name}` of {setting.text} is outside the slide's travel",
             setting.span or task.step.span,
-            f"expected {joint.lower * 1000:g} mm .. {joint.upper * 1000:g} mm",
+            f"expected {exact_mm(joint.lower)} .. {exact_mm(joint.upper)}",
         )
     draft = _draft(task, line, SlideMove(height_m), ("slide",))
     return Draft(

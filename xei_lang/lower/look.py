@@ -20,6 +20,7 @@ from xei_lang.lower.refusal import refuse
 from xei_lang.lower.task import Task, refuse_template
 from xei_lang.profiles.model import Camera, LabObject, Profile, TemplateStep
 from xei_lang.quantity import quantity
+from xei_lang.quantity.lengths import exact_mm
 from xei_lang.world.frames import T_base_link, slide_joint
 
 _STEP_M = 0.01
@@ -52,7 +53,7 @@ def look_height(task: Task, argument: str, line: TemplateStep) -> tuple[Setting,
     view = best_view(task.profile, T_base_object, known.size_m, near_m, margin.si("Fraction"))
     if view is None:
         _refuse_unseen(task, argument, known, margin)
-    rule = f"nearest to the station's {near_m * 1000:g} mm with `{known.name}` in the picture"
+    rule = f"nearest to the station's {exact_mm(near_m)} with `{known.name}` in the picture"
     chosen = computed_length("look_height", view.height_m, rule)
     camera = Parameter("camera", view.camera.name, "computed", "rides on the slide", view.camera.span)
     return chosen, (chosen.provenance(), camera, margin.provenance())

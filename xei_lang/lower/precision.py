@@ -15,6 +15,7 @@ from xei_lang.ir.world import Frame, World
 from xei_lang.lower.precision_of_tips import tip_fits
 from xei_lang.lower.seats import place_text
 from xei_lang.profiles.model import Profile
+from xei_lang.quantity.lengths import error_mm
 from xei_lang.world.precision import Benches, SlotPrecision
 from xei_lang.world.transforms import Transform
 
@@ -58,7 +59,7 @@ def _warning(
         "XEI0717",
         f"`{name}` may miss `{where}`",
         step.span,
-        label=f"{label} {_mm(found.capture_m)}, and may be {_mm(found.tolerance_m)} off",
+        label=f"{label} {error_mm(found.capture_m)}, and may be {error_mm(found.tolerance_m)} off",
         notes=(f"known by way of {_shown(found.way)}",),
         help=(f"measure these transforms more closely{mend}; a simulation goes on",),
     )
@@ -74,13 +75,9 @@ def _shown(way: Transform) -> str:
 
 
 def _tolerance(link: Frame) -> str:
-    text = f"{_mm(link.position_tolerance_m)}, {_degrees(link.rotation_tolerance_rad)}"
+    text = f"{error_mm(link.position_tolerance_m)}, {_degrees(link.rotation_tolerance_rad)}"
     return f"standard deviation {text}; {SIGMAS:g} of them count" if link.tolerance_as == "std" else text
 
 
 def _degrees(angle_rad: float) -> str:
     return f"{math.degrees(angle_rad):.2g} deg"
-
-
-def _mm(length_m: float) -> str:
-    return f"{length_m * 1000:.1f} mm"

@@ -13,6 +13,7 @@ from xei_lang.lower.refusal import refuse
 from xei_lang.lower.task import Task
 from xei_lang.lower.walk import Scene
 from xei_lang.profiles.model import LabObject, Thread
+from xei_lang.quantity.lengths import exact_mm
 
 _SAME_RAD = math.radians(0.1)
 """Strokes are stated in thousandths of a degree."""
@@ -46,7 +47,7 @@ def _refuse_other_turns(
         "XEI0701",
         f"`{task.spec.name}` does not turn `{known.name}` all the way {what}",
         next((line.span for line in task.spec.template if line.field("path") == "screw"), task.spec.span),
-        f"expected {math.degrees(wanted_rad):g} deg at a lead of {thread.lead_m * 1000:g} mm, found {found}",
+        f"expected {math.degrees(wanted_rad):g} deg at a lead of {exact_mm(thread.lead_m)}, found {found}",
         (Label(thread.span, "its thread is stated here"),),
         notes=("seen from above a cap is turned to the left to come off, to the right to go on",),
     )

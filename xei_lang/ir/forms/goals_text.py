@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 
 from xei_lang.ir.families import Family, ToolTarget
-from xei_lang.ir.forms.pose_text import millimetres, pose_text
+from xei_lang.ir.forms.pose_text import pose_text
 from xei_lang.ir.geometry import Vec3
 from xei_lang.ir.goals import (
     Action,
@@ -30,6 +30,7 @@ from xei_lang.ir.goals import (
 )
 from xei_lang.ir.skill_plan import Side
 from xei_lang.ir.tool_paths import Raster, ToolPath
+from xei_lang.quantity.lengths import millimetres
 
 _SHOWN_MEMBERS = 3
 

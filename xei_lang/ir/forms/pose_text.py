@@ -1,4 +1,4 @@
-"""Lengths and poses in the words of people: millimetres and degrees, rounded, without negative zeros."""
+"""Poses in the words of people: millimetres and degrees, rounded, without negative zeros."""
 
 from __future__ import annotations
 
@@ -6,11 +6,7 @@ import math
 
 from xei_lang.ir.geometry import Pose
 from xei_lang.ir.skill_plan import PoseIn
-
-
-def millimetres(length_m: float) -> str:
-    """A length in mm, to a tenth, without trailing zeros."""
-    return f"{round(length_m * 1000, 1) + 0.0:g}"
+from xei_lang.quantity.lengths import millimetres
 
 
 def pose_text(pose: Pose) -> str:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 
-from xei_lang.ir.forms.pose_text import millimetres, pose_text
+from xei_lang.ir.forms.pose_text import pose_text
 from xei_lang.ir.world import Drive, Frame, Opening, RobotState, World, WorldObject
+from xei_lang.quantity.lengths import millimetres
 
 
 def to_text(world: World) -> str:

@@ -19,6 +19,7 @@ from xei_lang.lower.refusal import refuse
 from xei_lang.profiles.model import LabObject, Profile, Thread
 from xei_lang.quantity import Quantity, quantity
 from xei_lang.quantity.dimension import NUMBER
+from xei_lang.quantity.lengths import exact_mm
 from xei_lang.record import Record, record
 
 MOST_STROKE_RAD = math.radians(270.0)
@@ -127,7 +128,7 @@ def depth_on_cap(work: Work, cap: Cap, fingertip_m: float) -> Setting:
     """How deep under the cap's top the jaws' grasp point lies: the fingertips end above the cap's rim."""
     height_m = cap.known.size_m[2]
     deepest_m = height_m - fingertip_m - 0.002
-    rule = f"the fingertips reach {fingertip_m * 1000:g} mm further, and stay 2 mm over the cap's rim"
+    rule = f"the fingertips reach {exact_mm(fingertip_m)} further, and stay 2 mm over the cap's rim"
     depth = work.layers.merge("cap_depth", computed_length("cap_depth", max(0.002, deepest_m), rule))
     assert depth is not None
     if not 0.0 < depth.si("Length") <= height_m:
@@ -135,7 +136,7 @@ def depth_on_cap(work: Work, cap: Cap, fingertip_m: float) -> Setting:
             "XEI0702",
             f"`cap_depth` of {depth.text} is not on `{cap.known.name}`",
             depth.span or work.span,
-            f"expected more than 0 mm and at most {height_m * 1000:g} mm",
+            f"expected more than 0 mm and at most {exact_mm(height_m)}",
         )
     return depth
 

@@ -20,6 +20,7 @@ from xei_lang.lower.parameters import ROUNDING_M, Setting, computed_length
 from xei_lang.lower.refusal import refuse
 from xei_lang.profiles.model import LabObject
 from xei_lang.quantity import quantity
+from xei_lang.quantity.lengths import exact_mm
 
 _ABOVE_M = 0.030
 _IMMERSION_M = 0.003
@@ -39,13 +40,13 @@ def plan_aspirate(work: Work) -> Planned:
             "XEI0726",
             f"a tip of `{pipette.known.name}` does not reach the liquid in `{opening.vessel.name}`",
             work.span,
-            f"it comes within {deepest * 1000:.3g} mm of the bottom, where {level * 1000:.3g} mm are left",
+            f"it comes within {exact_mm(deepest)} of the bottom, where {exact_mm(level)} are left",
             (Label(opening.vessel.span, "the vessel is stated here"),),
         )
     end, rule = deepest, "as deep as it goes: how much is in the vessel is not known"
     if level is not None:
         end = max(deepest, level - _IMMERSION_M)
-        immersed = f"{_IMMERSION_M * 1000:g} mm below the level that is left"
+        immersed = f"{exact_mm(_IMMERSION_M)} below the level that is left"
         rule = immersed if end > deepest else "as deep as it goes"
     depth = computed_length("tip_depth", opening.rim_m - end, rule)
     return _planned(work, "aspirate", pipette, opening, depth)
@@ -58,7 +59,7 @@ def plan_dispense(work: Work) -> Planned:
     depth, rule = _BELOW_RIM_M, "just inside the opening"
     if opening.after_m is not None and opening.rim_m - opening.after_m - _FROM_LIQUID_M < depth:
         depth = opening.rim_m - opening.after_m - _FROM_LIQUID_M
-        rule = f"{_FROM_LIQUID_M * 1000:g} mm above the level that is then reached"
+        rule = f"{exact_mm(_FROM_LIQUID_M)} above the level that is then reached"
     return _planned(work, "dispense", pipette, opening, computed_length("tip_depth", depth, rule))
 
 
@@ -113,7 +114,7 @@ def _tip_depth(work: Work, opening: Opening, computed: Setting) -> Setting:
             "XEI0702",
             f"`tip_depth` of {depth.text} is deeper than a tip may go into `{opening.vessel.name}`",
             depth.span or work.span,
-            f"expected at most {most * 1000:.4g} mm below the rim",
+            f"expected at most {exact_mm(most)} below the rim",
             (Label(opening.vessel.span, "the vessel is stated here"),),
         )
     return depth

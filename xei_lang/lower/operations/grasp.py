@@ -26,8 +26,8 @@ from xei_lang.lower.refusal import refuse
 from xei_lang.lower.robot import reach_direction
 from xei_lang.lower.seats import place_text, seat_of
 from xei_lang.lower.walk import Standing
-from xei_lang.lower.words import mm
 from xei_lang.profiles.model import LabObject
+from xei_lang.quantity.lengths import mm
 from xei_lang.world.places import accepts
 
 _APPROACHES = {"top": (60.0, 90.0), "oblique": (30.0, 45.0, 60.0), "side": (0.0, 30.0)}

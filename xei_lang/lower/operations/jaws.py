@@ -11,8 +11,8 @@ from xei_lang.lower.operations.base import Work
 from xei_lang.lower.operations.grasp_family import MIN_CLEARANCE_M, Closing, closings
 from xei_lang.lower.parameters import ROUNDING_M, Setting, computed_length
 from xei_lang.lower.refusal import refuse
-from xei_lang.lower.words import mm
 from xei_lang.profiles.model import LabObject
+from xei_lang.quantity.lengths import exact_mm
 from xei_lang.record import Record, record
 
 _SKILL_CLEARANCE_M = 0.004
@@ -56,9 +56,9 @@ def _closing(work: Work, known: LabObject, seen: Seen) -> Closing:
             "XEI0703",
             f"`{known.name}` is too wide for the gripper",
             work.span,
-            f"{mm(least)} wide where it is narrowest, the jaws open {mm(hand.max_gap_m)} at most",
+            f"{exact_mm(least)} wide where it is narrowest, the jaws open {exact_mm(hand.max_gap_m)} at most",
             (Label(known.span, f"its shape is {known.computed_from or 'stated here'}"),),
-            notes=(f"the jaws must pass an object with {mm(MIN_CLEARANCE_M)} to spare on each side",),
+            notes=(f"the jaws must pass an object with {exact_mm(MIN_CLEARANCE_M)} to spare on each side",),
         )
     (reach_x, reach_y), rotate = seen.reach, seen.T_base_object.rotate
 
@@ -78,13 +78,13 @@ def _set(work: Work, known: LabObject, closing: Closing, hand: Hand) -> Jaws:
     if clearance is None and default is not None and wanted_m <= room_m:
         clearance = default
     elif clearance is None:
-        rule = f"what {mm(hand.max_gap_m)} leaves beside {mm(closing.width_m)}"
+        rule = f"what {exact_mm(hand.max_gap_m)} leaves beside {exact_mm(closing.width_m)}"
         clearance = computed_length("jaw_clearance", min(room_m, wanted_m), rule)
     origin = f", {known.computed_from}" if known.computed_from else ""
     width = f"width of the object between the jaws{origin}"
     closed = work.layers.merge("grasp_width", computed_length("grasp_width", closing.width_m, width))
     assert closed is not None
-    rule = f"{mm(closing.width_m)} and {clearance.text} on each side"
+    rule = f"{exact_mm(closing.width_m)} and {clearance.text} on each side"
     wide_m = closing.width_m + 2 * clearance.si("Length")
     opening = work.layers.merge("open_width", computed_length("open_width", wide_m, rule))
     assert opening is not None
@@ -94,6 +94,6 @@ def _set(work: Work, known: LabObject, closing: Closing, hand: Hand) -> Jaws:
                 "XEI0702",
                 f"`{item.name}` of {item.text} is not a gap of this gripper",
                 item.span or work.span,
-                f"expected 0 mm .. {mm(hand.max_gap_m)}",
+                f"expected 0 mm .. {exact_mm(hand.max_gap_m)}",
             )
     return Jaws(closing, clearance, opening, closed)

@@ -9,6 +9,7 @@ from xei_lang.lower.operations.base import Aim, Operation, Planned, Work
 from xei_lang.lower.operations.held import in_hand
 from xei_lang.lower.parameters import Setting, computed_length
 from xei_lang.lower.refusal import refuse
+from xei_lang.quantity.lengths import exact_mm
 
 _CLEAR_M = 0.020
 
@@ -31,7 +32,7 @@ def clear_travel(work: Work, name: str, depth_m: float, why: str) -> Setting:
     default = work.layers.skill.get(name)
     needed_m = depth_m + _CLEAR_M
     if default is None or default.si("Length") < needed_m:
-        rule = f"{why}: {depth_m * 1000:g} mm deep, {_CLEAR_M * 1000:g} mm clear"
+        rule = f"{why}: {exact_mm(depth_m)} deep, {exact_mm(_CLEAR_M)} clear"
         setting = work.layers.merge(name, computed_length(name, needed_m, rule))
     else:
         setting = work.layers.merge(name, None)
@@ -39,9 +40,9 @@ def clear_travel(work: Work, name: str, depth_m: float, why: str) -> Setting:
     if setting.si("Length") <= depth_m:
         refuse(
             "XEI0702",
-            f"`{name}` of {setting.text} does not clear a slot {depth_m * 1000:g} mm deep",
+            f"`{name}` of {setting.text} does not clear a slot {exact_mm(depth_m)} deep",
             setting.span or work.span,
-            f"expected more than {depth_m * 1000:g} mm",
+            f"expected more than {exact_mm(depth_m)}",
         )
     return setting
 

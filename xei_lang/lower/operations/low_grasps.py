@@ -12,7 +12,7 @@ from xei_lang.lower.operations.base import Work
 from xei_lang.lower.operations.caps import Cap
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.robot import reach_direction
-from xei_lang.lower.words import mm
+from xei_lang.quantity.lengths import mm
 
 _ELEVATIONS_DEG = (0.0, 8.0, 15.0)
 _ASIDE_DEG = (0.0, 12.0, -12.0, 24.0, -24.0)

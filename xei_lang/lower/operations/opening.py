@@ -18,6 +18,7 @@ from xei_lang.lower.parameters import Setting
 from xei_lang.lower.refusal import refuse
 from xei_lang.profiles.model import LabObject, Liquid
 from xei_lang.quantity import Quantity
+from xei_lang.quantity.lengths import exact_mm
 
 FROM_BOTTOM_M = 0.003
 _FROM_WALL_M = 0.0005
@@ -71,7 +72,7 @@ def opening_of(work: Work, pipette: Pipette, volume: Setting, sign: int) -> Open
             "XEI0726",
             f"a tip of `{pipette.known.name}` does not fit into `{vessel.name}`",
             work.span,
-            f"{_mm(pipette.tip.diameter_m)} wide, the opening {_mm(liquid.inner_diameter_m)}",
+            f"{exact_mm(pipette.tip.diameter_m)} wide, the opening {exact_mm(liquid.inner_diameter_m)}",
             stated,
         )
     fill = _fill(work, vessel)
@@ -129,10 +130,6 @@ def _refuse_volume(
         return
     stated = (Label(vessel.span, "its `liquid` is stated here"),)
     refuse("XEI0719", message, volume.span or work.span, found, stated)
-
-
-def _mm(length_m: float) -> str:
-    return f"{length_m * 1000:g} mm"
 
 
 def _ml(volume_m3: float) -> str:

@@ -19,6 +19,7 @@ from xei_lang.lower.refusal import refuse
 from xei_lang.lower.seats import Seat, place_text, seat_of
 from xei_lang.lower.walk import Held
 from xei_lang.profiles.model import LabObject, SlotGrid
+from xei_lang.quantity.lengths import exact_mm
 from xei_lang.world.places import accepting, accepts
 
 _DEFAULT_CLEARANCE_M = 0.004
@@ -122,7 +123,7 @@ def _refuse_unfit(work: Work, seat: Seat, grid: SlotGrid, known: LabObject) -> N
             "XEI0714",
             f"`{known.name}` is too wide for `{seat.text}`",
             work.span,
-            f"{width * 1000:.4g} mm across, the bore is {grid.bore_m * 1000:.4g} mm",
+            f"{exact_mm(width)} across, the bore is {exact_mm(grid.bore_m)}",
             label,
         )
 
@@ -141,7 +142,7 @@ def _insertion_depth(work: Work, seat: Seat) -> Setting | None:
             "XEI0702",
             f"`insertion_depth` of {setting.text} does not fit `{seat.text}`",
             setting.span or work.span,
-            f"expected up to {seat.grid.depth_m * 1000:g} mm",
+            f"expected up to {exact_mm(seat.grid.depth_m)}",
             (Label(seat.grid.span, "the slots are stated here"),),
         )
     return setting
@@ -169,10 +170,10 @@ def release_width(work: Work, held: Held) -> tuple[Setting, Setting]:
     default = work.layers.merge("jaw_clearance", None)
     wanted_m = default.si("Length") if default else _DEFAULT_CLEARANCE_M
     if default is None or wanted_m > room_m:
-        rule = f"what {gap_m * 1000:g} mm leaves beside {held.grasp_width_m * 1000:g} mm"
+        rule = f"what {exact_mm(gap_m)} leaves beside {exact_mm(held.grasp_width_m)}"
         default = computed_length("jaw_clearance", min(wanted_m, room_m), rule)
     width_m = held.grasp_width_m + 2 * default.si("Length")
-    rule = f"{held.grasp_width_m * 1000:g} mm and {default.text} on each side"
+    rule = f"{exact_mm(held.grasp_width_m)} and {default.text} on each side"
     setting = work.layers.merge("release_width", computed_length("release_width", width_m, rule))
     assert setting is not None
     if not held.grasp_width_m < setting.si("Length") <= gap_m + ROUNDING_M:
@@ -180,7 +181,7 @@ def release_width(work: Work, held: Held) -> tuple[Setting, Setting]:
             "XEI0702",
             f"`release_width` of {setting.text} does not release `{held.object}`",
             setting.span or work.span,
-            f"expected more than {held.grasp_width_m * 1000:g} mm and at most {gap_m * 1000:g} mm",
+            f"expected more than {exact_mm(held.grasp_width_m)} and at most {exact_mm(gap_m)}",
         )
     return default, setting
 

@@ -24,6 +24,7 @@ from xei_lang.lower.robot import reach_direction
 from xei_lang.lower.walk import Held
 from xei_lang.profiles.model import LabObject, Liquid
 from xei_lang.quantity import Quantity, quantity
+from xei_lang.quantity.lengths import exact_mm
 
 _CLEARANCE_M = 0.015
 _BEHIND_MIDDLE = 1 / 3
@@ -97,7 +98,7 @@ def _round(work: Work, known: LabObject) -> tuple[Cylinder, Liquid]:
 def _height(work: Work, shape: Cylinder, clearance: Setting) -> Setting:
     """How high the lip stands above the target's rim; never so low that the upright vessel meets it."""
     least_m = shape.height_m + clearance.si("Length")
-    rule = f"the upright vessel, {shape.height_m * 1000:g} mm high, clears the rim by {clearance.text}"
+    rule = f"the upright vessel, {exact_mm(shape.height_m)} high, clears the rim by {clearance.text}"
     height = work.layers.merge("pour_height", computed_length("pour_height", least_m, rule))
     assert height is not None
     if height.si("Length") < shape.height_m:
@@ -105,7 +106,7 @@ def _height(work: Work, shape: Cylinder, clearance: Setting) -> Setting:
             "XEI0702",
             f"`pour_height` of {height.text} lets the upright vessel meet the rim",
             height.span or work.span,
-            f"expected at least {shape.height_m * 1000:g} mm",
+            f"expected at least {exact_mm(shape.height_m)}",
         )
     return height
 

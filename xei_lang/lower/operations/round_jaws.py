@@ -11,8 +11,8 @@ from xei_lang.lower.operations.base import Work
 from xei_lang.lower.operations.grasp_family import MIN_CLEARANCE_M
 from xei_lang.lower.parameters import Setting, computed_length
 from xei_lang.lower.refusal import refuse
-from xei_lang.lower.words import mm
 from xei_lang.profiles.model import LabObject
+from xei_lang.quantity.lengths import exact_mm
 
 
 def round_jaws(
@@ -27,14 +27,14 @@ def round_jaws(
             "XEI0703",
             f"`{known.name}` is too wide for the gripper",
             work.span,
-            f"{mm(wide_m)} wide, the jaws open {mm(hand.max_gap_m)} at most",
+            f"{exact_mm(wide_m)} wide, the jaws open {exact_mm(hand.max_gap_m)} at most",
         )
     default = work.layers.merge("jaw_clearance", None)
     assert default is not None
     room_m = min(default.si("Length"), (hand.max_gap_m - wide_m) / 2)
     closing = computed_length(f"{prefix}_width", wide_m, f"width of the {what}")
     opening = computed_length(
-        f"{prefix}_open_width", wide_m + 2 * room_m, f"{mm(wide_m)} and {mm(room_m)} on each side"
+        f"{prefix}_open_width", wide_m + 2 * room_m, f"{exact_mm(wide_m)} and {exact_mm(room_m)} on each side"
     )
     closed = work.layers.merge(closing.name, closing)
     opened = work.layers.merge(opening.name, opening)

@@ -30,8 +30,8 @@ from xei_lang.lower.parameters import Setting, computed_length
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.robot import reach_direction, shoulder_height_m
 from xei_lang.lower.walk import Standing
-from xei_lang.lower.words import mm
 from xei_lang.profiles.model import LabObject
+from xei_lang.quantity.lengths import mm
 
 _INWARDS_RAD = math.radians(70.0)
 """Where the hand heads in the air, from straight ahead."""

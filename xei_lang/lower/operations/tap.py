@@ -19,6 +19,7 @@ from xei_lang.lower.operations.base import Aim, Operation, Planned, Work
 from xei_lang.lower.parameters import Setting, computed_length
 from xei_lang.lower.refusal import refuse
 from xei_lang.profiles.model import Element, LabObject
+from xei_lang.quantity.lengths import exact_mm
 
 _ELEVATIONS_DEG = (0.0, 20.0, 40.0, 60.0)
 _AZIMUTHS_DEG = (0.0, 20.0, -20.0, 40.0, -40.0)
@@ -103,7 +104,7 @@ def _end(work: Work, screen: LabObject, start: tuple[float, float]) -> tuple[flo
             "XEI0720",
             f"a swipe of {length.text} leaves `{screen.name}`",
             length.span or work.span,
-            f"its face is {width * 1000:g} mm wide and {height * 1000:g} mm high",
+            f"its face is {exact_mm(width)} wide and {exact_mm(height)} high",
             (Label(screen.span, "the screen is stated here"),),
         )
     return end

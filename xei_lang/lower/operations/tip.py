@@ -22,6 +22,7 @@ from xei_lang.lower.seats import Seat, seat_of
 from xei_lang.profiles.grid import is_tip_grid
 from xei_lang.profiles.model import LabObject
 from xei_lang.quantity import quantity
+from xei_lang.quantity.lengths import exact_mm
 
 _CLEAR_M = 0.020
 _ABOVE_WASTE_M = 0.020
@@ -40,7 +41,7 @@ def plan_tip(work: Work) -> Planned:
     force = _press_force(work, pipette)
     alignment = alignment_tolerance(work.layers)
     depth = pipette.tip.length_m
-    rule = f"the tip, {depth * 1000:g} mm long, leaves its slot with {_CLEAR_M * 1000:g} mm to spare"
+    rule = f"the tip, {exact_mm(depth)} long, leaves its slot with {exact_mm(_CLEAR_M)} to spare"
     height = work.layers.merge("tip_height", computed_length("tip_height", depth + _CLEAR_M, rule))
     assert height is not None
     if height.si("Length") <= depth:
@@ -48,7 +49,7 @@ def plan_tip(work: Work) -> Planned:
             "XEI0702",
             f"`tip_height` of {height.text} leaves the tip in its slot",
             height.span or work.span,
-            f"expected more than {depth * 1000:g} mm",
+            f"expected more than {exact_mm(depth)}",
         )
     T_base_on = work.scene.in_base(work.scene.standing[box.name].T_world_object @ seat.T_host_seat) @ Pose(
         (0.0, 0.0, -depth)
@@ -104,13 +105,13 @@ def _seat(work: Work, ref: PlaceRef, pipette: Pipette) -> tuple[Seat, LabObject]
         refuse("XEI0710", f"it is not known where `{box.name}` stands", work.span, "not in the world")
     grid, tip = seat.grid, pipette.tip
     if grid is None or not is_tip_grid(grid, tip):
-        found = "no slot" if grid is None else f"its slots are {grid.depth_m * 1000:g} mm deep"
+        found = "no slot" if grid is None else f"its slots are {exact_mm(grid.depth_m)} deep"
         found = f"it accepts {' or '.join(grid.accepts)}" if grid is not None and grid.accepts else found
         refuse(
             "XEI0726",
             f"`{seat.text}` holds no tip for `{pipette.known.name}`",
             work.span,
-            f"{found}, the tips are {tip.length_m * 1000:g} mm long",
+            f"{found}, the tips are {exact_mm(tip.length_m)} long",
             (Label(tip.span, "the tips are stated here"),),
         )
     return seat, box

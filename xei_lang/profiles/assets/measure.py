@@ -14,6 +14,7 @@ from xei_lang.profiles.assets.fit import Extent, Kind, extent_of, fit, without_s
 from xei_lang.profiles.assets.points import Array, Points
 from xei_lang.profiles.assets.told import Named, size_of
 from xei_lang.profiles.assets.units import SCALES, likely_unit, matching_unit, plausible
+from xei_lang.quantity.lengths import exact_mm
 
 _KINDS: dict[type[Shape], Kind] = {Box: "box", Cylinder: "cylinder", Sphere: "sphere"}
 
@@ -33,7 +34,7 @@ class Slack:
     @property
     def text(self) -> str:
         """For a note."""
-        return f"{1000 * self.least_m:g} mm or {100 * self.fraction:g} %, whichever is more"
+        return f"{exact_mm(self.least_m)} or {100 * self.fraction:g} %, whichever is more"
 
 
 SLACK = {"mesh": Slack(0.001, 0.02, 0.05), "point_cloud": Slack(0.003, 0.05, 0.08)}

@@ -9,6 +9,7 @@ from xei_lang.ir.tolerance import as_bound
 from xei_lang.profiles.grid import T_frame_object, T_world_frame
 from xei_lang.profiles.model import LabObject, Profile, SlotGrid
 from xei_lang.profiles.trees import Trees
+from xei_lang.quantity.lengths import exact_mm
 
 FIT_M = 0.0005
 """A bore must exceed what goes in by this much: catalogue diameters of tubes and bores hold to about half a
@@ -37,14 +38,14 @@ def _slots(item: LabObject, grid: SlotGrid) -> Iterator[Diagnostic]:
             item,
             grid,
             "are deeper than it is",
-            f"{_mm(grid.depth_m)} deep, mouths {_mm(grid.origin_m[2])} above the bottom",
+            f"{exact_mm(grid.depth_m)} deep, mouths {exact_mm(grid.origin_m[2])} above the bottom",
         )
     if grid.origin_m[2] > item.size_m[2] + _SLACK_M:
         yield _wrong(
             item,
             grid,
             "have mouths above its top",
-            f"{_mm(grid.origin_m[2])}, and it is {_mm(item.size_m[2])} high",
+            f"{exact_mm(grid.origin_m[2])}, and it is {exact_mm(item.size_m[2])} high",
         )
     if len(set(grid.rows)) < len(grid.rows):
         yield _wrong(item, grid, "have two rows of one name", ", ".join(grid.rows))
@@ -52,7 +53,10 @@ def _slots(item: LabObject, grid: SlotGrid) -> Iterator[Diagnostic]:
     for axis, name in enumerate("xy"):
         if counts[axis] > 1 and grid.pitch_m[axis] < grid.bore_m:
             yield _wrong(
-                item, grid, "run into each other", f"pitch {_mm(grid.pitch_m[axis])}, bore {_mm(grid.bore_m)}"
+                item,
+                grid,
+                "run into each other",
+                f"pitch {exact_mm(grid.pitch_m[axis])}, bore {exact_mm(grid.bore_m)}",
             )
         first = grid.origin_m[axis] - grid.bore_m / 2
         last = grid.origin_m[axis] + (counts[axis] - 1) * grid.pitch_m[axis] + grid.bore_m / 2
@@ -61,7 +65,7 @@ def _slots(item: LabObject, grid: SlotGrid) -> Iterator[Diagnostic]:
                 item,
                 grid,
                 "reach past its edge",
-                f"{_mm(first)} .. {_mm(last)} along {name}, it is {_mm(item.size_m[axis])}",
+                f"{exact_mm(first)} .. {exact_mm(last)} along {name}, it is {exact_mm(item.size_m[axis])}",
             )
 
 
@@ -83,9 +87,11 @@ def _bores(profile: Profile, item: LabObject, grid: SlotGrid) -> Iterator[Diagno
                 "XEI0640",
                 f"`{other.name}` is too wide for the slots of `{item.name}` that accept it",
                 grid.span,
-                label=f"bore {_mm(grid.bore_m)}",
-                labels=(Label(other.span, f"{_mm(width)} wide"),),
-                notes=(f"a bore must be {_mm(FIT_M)} wider than what it accepts: sizes hold to about that",),
+                label=f"bore {exact_mm(grid.bore_m)}",
+                labels=(Label(other.span, f"{exact_mm(width)} wide"),),
+                notes=(
+                    f"a bore must be {exact_mm(FIT_M)} wider than what it accepts: sizes hold to about that",
+                ),
                 help=("correct the sizes, or take the role out of the slots' `accepts`",),
             )
 
@@ -106,7 +112,8 @@ def _vessel(item: LabObject) -> Iterator[Diagnostic]:
             "XEI0640",
             f"`{item.name}` is wider inside than outside",
             item.span,
-            label=f"inner diameter {_mm(liquid.inner_diameter_m)}, outer {_mm(min(item.size_m[:2]))}",
+            label=f"inner diameter {exact_mm(liquid.inner_diameter_m)},"
+            f" outer {exact_mm(min(item.size_m[:2]))}",
         )
 
 
@@ -120,7 +127,7 @@ def _below(profile: Profile, item: LabObject) -> Iterator[Diagnostic]:
     if height < -_SLACK_M:
         yield Diagnostic(
             "XEI0643",
-            f"`{item.name}` would stand {_mm(-height)} below the top of `{placed[0]}`",
+            f"`{item.name}` would stand {exact_mm(-height)} below the top of `{placed[0]}`",
             item.prior.span,
             label="expected a height of 0 or above",
             notes=("an object's frame is at its bottom",),
@@ -142,7 +149,7 @@ def _table(profile: Profile) -> Iterator[Diagnostic]:
             "XEI0640",
             f"the frame `{frame.name}` and the table's height disagree",
             frame.span,
-            label=f"{_mm(height)} up, and `table` says {_mm(calibration.table_height_m)}",
+            label=f"{exact_mm(height)} up, and `table` says {exact_mm(calibration.table_height_m)}",
         )
 
 
@@ -159,7 +166,3 @@ def _bounds(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
                 trees.calibration.span_of(*path),
                 label="expected every number of `lower` below that of `upper`",
             )
-
-
-def _mm(length_m: float) -> str:
-    return f"{round(length_m * 1000, 3):g} mm"

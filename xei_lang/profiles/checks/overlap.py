@@ -14,6 +14,7 @@ from xei_lang.diagnostics import Diagnostic, Label
 from xei_lang.ir.geometry import Box, Cylinder, Pose
 from xei_lang.profiles.grid import T_frame_object, T_world_frame, prior_chain
 from xei_lang.profiles.model import LabObject, Profile
+from xei_lang.quantity.lengths import mm
 
 TOUCH_M = 1e-4
 """Parts that share less than this along some direction count as touching."""
@@ -54,7 +55,7 @@ def _diagnostic(first: LabObject, second: LabObject, depth_m: float) -> Diagnost
         "XEI0642",
         f"`{mover.name}` and `{other.name}` stand in each other",
         span,
-        label=f"overlaps by {round(depth_m * 1000, 1):g} mm",
+        label=f"overlaps by {mm(depth_m)}",
         labels=(Label(other_span, f"`{other.name}` stands here"),),
         help=("move one of the two, or correct its size",),
     )

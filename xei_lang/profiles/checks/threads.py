@@ -8,6 +8,7 @@ from xei_lang.diagnostics import Diagnostic, Label, Span
 from xei_lang.profiles.checks.unknown import unknown
 from xei_lang.profiles.model import LabObject, Profile, Spot, Thread
 from xei_lang.profiles.trees import Trees
+from xei_lang.quantity.lengths import exact_mm
 
 MOST_LEAD_M = 0.02
 """Coarser than any screw cap: a lead of this much per turn would not hold by itself."""
@@ -50,7 +51,7 @@ class _Cap:
             yield self.say(span, f"`{item.name}` has a thread and is not movable", "is a cap", help_)
         if thread.lead_m > MOST_LEAD_M:
             span = self.trees.of_object(item, "thread", "lead")
-            label = f"expected at most {MOST_LEAD_M * 1000:g} mm in a whole turn"
+            label = f"expected at most {exact_mm(MOST_LEAD_M)} in a whole turn"
             yield self.say(
                 span, f"the thread of `{item.name}` is too steep to hold", label, "measure it again"
             )

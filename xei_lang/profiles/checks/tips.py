@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from xei_lang.diagnostics import Diagnostic, Label
 from xei_lang.ir.geometry import Box, Cylinder, Primitive
 from xei_lang.profiles.model import LabObject, Profile, Tip
+from xei_lang.quantity.lengths import exact_mm
 
 _SLACK_M = 1e-6
 
@@ -26,7 +27,7 @@ def _tip(item: LabObject, tip: Tip) -> Iterator[Diagnostic]:
             "XEI0640",
             f"the tips of `{item.name}` are shorter than what sits in them",
             tip.span,
-            label=f"{_mm(tip.length_m)} long, the nose sits {_mm(tip.seat_m)} deep",
+            label=f"{exact_mm(tip.length_m)} long, the nose sits {exact_mm(tip.seat_m)} deep",
             help=("measure both again, and correct the one that is wrong",),
         )
         return
@@ -36,8 +37,9 @@ def _tip(item: LabObject, tip: Tip) -> Iterator[Diagnostic]:
             "XEI0640",
             f"the shape of `{item.name}` leaves out its tip",
             tip.span,
-            label=f"{_mm(tip.length_m - tip.seat_m)} of a tip stand out, {_mm(tip.diameter_m)} wide",
-            labels=(Label(item.span, f"its shape has {_mm(covered)} of that"),),
+            label=f"{exact_mm(tip.length_m - tip.seat_m)} of a tip stand out,"
+            f" {exact_mm(tip.diameter_m)} wide",
+            labels=(Label(item.span, f"its shape has {exact_mm(covered)} of that"),),
             notes=(
                 "a pipette's frame is at the end of a tip on it, and its shape has the tip on at all times",
             ),
@@ -62,7 +64,3 @@ def _covered_m(geometry: tuple[Primitive, ...], radius_m: float) -> float:
         if lower <= reached + _SLACK_M:
             reached = max(reached, upper)
     return reached
-
-
-def _mm(length_m: float) -> str:
-    return f"{round(length_m * 1000, 3):g} mm"

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from xei_lang.ir.world import World
 from xei_lang.profiles.model import Profile
+from xei_lang.quantity.lengths import exact_mm
 from xei_lang.world.map.deployed import MapFindings, station_pose
 from xei_lang.world.map.drive import Floor
 from xei_lang.world.map.grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid
@@ -27,7 +28,7 @@ def size_text(grid: OccupancyGrid) -> str:
     area_m2 = grid.resolution_m**2
     parts = ((FREE, "free"), (OCCUPIED, "occupied"), (UNKNOWN, "unknown"))
     told = ", ".join(f"{grid.count(value) * area_m2:.1f} m2 {word}" for value, word in parts)
-    size = f"{width} x {height} cells of {grid.resolution_m * 1000:g} mm"
+    size = f"{width} x {height} cells of {exact_mm(grid.resolution_m)}"
     return f"{size}, {width * grid.resolution_m:.1f} m x {height * grid.resolution_m:.1f} m: {told}"
 
 

@@ -12,6 +12,7 @@ from xei_lang.diagnostics import Diagnostic, Label
 from xei_lang.ir.geometry import Pose
 from xei_lang.profiles.checks.overlap import TOUCH_M, Upright, overlap_m, solids_at
 from xei_lang.profiles.model import Profile
+from xei_lang.quantity.lengths import mm
 from xei_lang.world.places import place_text
 from xei_lang.world.sources.belief import Belief
 from xei_lang.world.sources.settle import HEIGHT_M, leveled
@@ -60,7 +61,7 @@ def contradictions(
         if pair not in shared and (pair == carriers or carriers not in shared):
             shared |= {pair, carriers}
             message = f"`{first.name}` and `{second.name}` would stand in each other"
-            yield _error(first, message, f"overlap by {_mm(depth_m)}", second)
+            yield _error(first, message, f"overlap by {mm(depth_m)}", second)
 
 
 def _shared_places(known: tuple[Known, ...]) -> Iterator[tuple[Known, Known, str]]:
@@ -96,7 +97,7 @@ def _below(profile: Profile, one: Known, frames: Mapping[str, Pose]) -> Iterator
             continue
         x, y, z = T_world_table.inverse().apply(one.standing.T_world_object.position_m)
         if lower[0] <= x <= upper[0] and lower[1] <= y <= upper[1] and z < -HEIGHT_M:
-            message = f"`{one.name}` was seen {_mm(-z)} below the top of `{name}`"
+            message = f"`{one.name}` was seen {mm(-z)} below the top of `{name}`"
             yield _error(one, message, "expected a height of 0 or above")
 
 
@@ -184,7 +185,3 @@ def _who(one: Known) -> str:
     if one.standing.carried_by:
         return f"`{one.name}` is where its prior has it in `{one.standing.carried_by}`, which was seen"
     return f"`{one.name}` is where its prior has it"
-
-
-def _mm(length_m: float) -> str:
-    return f"{length_m * 1000:.3g} mm"

@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 from xei_lang.diagnostics import Diagnostic, Span, did_you_mean
 from xei_lang.ir.geometry import Vec3
 from xei_lang.profiles.model import LabObject, Profile
+from xei_lang.quantity.lengths import mm
 from xei_lang.world.sources.observation import Observation, Observations
 
 _UNKNOWN = "XEI0655"
@@ -63,8 +64,8 @@ def _size(item: LabObject, size_m: Vec3, one: Observation, observed: Observation
     worst = max(range(3), key=lambda axis: abs(size_m[axis] - item.size_m[axis]))
     off_m = abs(size_m[worst] - item.size_m[worst])
     if off_m > max(0.005, 0.15 * item.size_m[worst]):
-        message = f"`{item.name}` was seen {_mm(size_m[worst])} along {'xyz'[worst]}"
-        label = f"the profile has {_mm(item.size_m[worst])}"
+        message = f"`{item.name}` was seen {mm(size_m[worst])} along {'xyz'[worst]}"
+        label = f"the profile has {mm(item.size_m[worst])}"
         help_ = "it may be another thing; measure it, and correct its shape or the mesh that it is seen with"
         yield _told("XEI0657", observed, message, one.span, label, help_)
 
@@ -89,7 +90,3 @@ def _told(
     if span is None and label:
         notes = (*notes, label)
     return Diagnostic(code, message, span, label if span else "", (), notes, (help_,))
-
-
-def _mm(length_m: float) -> str:
-    return f"{length_m * 1000:.4g} mm"

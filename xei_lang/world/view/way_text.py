@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from xei_lang.ir.forms.pose_text import millimetres
 from xei_lang.ir.tolerance import SIGMAS
+from xei_lang.quantity.lengths import millimetres
 from xei_lang.world.transforms import Share, Transform
 
 _MEANS = {"bound": "bound", "std": "standard deviation"}
