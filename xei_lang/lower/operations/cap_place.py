@@ -6,11 +6,10 @@ from xei_lang.diagnostics import Label
 from xei_lang.ir.skill_plan import ObjectRef
 from xei_lang.lower.operations.base import Work
 from xei_lang.lower.operations.caps import Cap
+from xei_lang.lower.operations.state_before import CAP, planned_cap
 from xei_lang.lower.refusal import refuse
 from xei_lang.profiles.checks.rule_facts import Fact, facts_of
 from xei_lang.syntax import ast
-
-_STATE = "cap"
 
 
 def refuse_elsewhere(work: Work, cap: Cap) -> None:
@@ -20,7 +19,7 @@ def refuse_elsewhere(work: Work, cap: Cap) -> None:
     if work.scene.holder(cap.known.name) is not None:
         return
     actual = "closed" if work.scene.carrier_of(cap.known.name) == cap.vessel.name else "open"
-    stated = _stated(work, cap)
+    stated = planned_cap(work, cap.vessel.name)
     if stated not in ("", actual):
         _refuse_stated(work, cap, stated)
     required = _required(work, cap)
@@ -28,18 +27,12 @@ def refuse_elsewhere(work: Work, cap: Cap) -> None:
         _refuse_done(work, cap, actual, required)
 
 
-def _stated(work: Work, cap: Cap) -> str:
-    """What is known of the vessel before the step; empty where that is nothing."""
-    name, facts = cap.vessel.name, [fact for fact in work.step.state_before if fact.variable == _STATE]
-    return next((str(fact.value) for fact in facts if fact.subject == name), "")
-
-
 def _required(work: Work, cap: Cap) -> Fact | None:
     """The rule of the skill that says whether the vessel must be open or closed."""
     spec = work.profile.bank.skill(work.step.skill)
     for fact in facts_of(spec.requires if spec else (), "requires"):
         state, argument = fact.key
-        if (state, fact.op, work.step.arg(argument)) == (_STATE, "==", ObjectRef(cap.vessel.name)):
+        if (state, fact.op, work.step.arg(argument)) == (CAP, "==", ObjectRef(cap.vessel.name)):
             return fact
     return None
 

@@ -19,6 +19,7 @@ from xei_lang.ir.tool_paths import Turn
 from xei_lang.lower.operations.base import Aim, Axis, Operation, Planned, Work
 from xei_lang.lower.operations.held import in_hand
 from xei_lang.lower.operations.in_air import room_in_air
+from xei_lang.lower.operations.state_before import CAP, cap_of
 from xei_lang.lower.parameters import Setting
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.walk import Held
@@ -93,11 +94,9 @@ def _closed(work: Work) -> tuple[Held, LabObject]:
     assert known is not None
     if known.liquid is None:
         return held, known
-    states = {state.name: state.initial for state in known.states}
-    facts = (fact for fact in work.step.state_before if fact.variable == "cap" and fact.subject == name)
-    cap = next((str(fact.value) for fact in facts), states.get("cap", "open"))
-    if cap != "closed":
-        found = "its cap is open" if "cap" in states else "its profile states no `cap`"
+    if cap_of(work, known) != "closed":
+        has_cap = any(state.name == CAP for state in known.states)
+        found = "its cap is open" if has_cap else "its profile states no `cap`"
         refuse(
             "XEI0723",
             f"`{name}` would be spilled: it is turned over and not closed",

@@ -14,10 +14,10 @@ from xei_lang.ir.geometry import Cylinder
 from xei_lang.ir.skill_plan import ObjectRef
 from xei_lang.lower.operations.base import Work
 from xei_lang.lower.operations.pipette import Pipette, goes_in_m
+from xei_lang.lower.operations.state_before import cap_of, volume_in
 from xei_lang.lower.parameters import Setting
 from xei_lang.lower.refusal import refuse
 from xei_lang.profiles.model import LabObject, Liquid
-from xei_lang.quantity import Quantity
 from xei_lang.quantity.lengths import exact_mm
 
 FROM_BOTTOM_M = 0.003
@@ -58,7 +58,7 @@ def opening_of(work: Work, pipette: Pipette, volume: Setting, sign: int) -> Open
     wall_m = shape.radius_m - radius_m
     slim_m = goes_in_m(pipette.known.geometry, radius_m - _FROM_WALL_M) - _FROM_RIM_M
     stated = (Label(vessel.span, "the vessel is stated here"),)
-    if _cap(work, vessel) == "closed":
+    if cap_of(work, vessel) == "closed":
         refuse(
             "XEI0725",
             f"`{vessel.name}` is closed: the tip would meet its cap",
@@ -75,10 +75,11 @@ def opening_of(work: Work, pipette: Pipette, volume: Setting, sign: int) -> Open
             f"{exact_mm(pipette.tip.diameter_m)} wide, the opening {exact_mm(liquid.inner_diameter_m)}",
             stated,
         )
-    fill = _fill(work, vessel)
+    known = volume_in(work, vessel.name)
     area_m2 = math.pi * radius_m**2
-    if fill is None:
+    if known is None:
         return Opening(vessel, liquid, wall_m, shape.height_m, slim_m, None, None)
+    fill = known.si
     after = fill + sign * volume.si("Volume")
     _refuse_volume(work, vessel, liquid, volume, fill, after)
     levels = (wall_m + fill / area_m2, wall_m + after / area_m2)
@@ -102,19 +103,6 @@ def _vessel(work: Work) -> tuple[LabObject, Cylinder, Liquid]:
             (Label(vessel.span, "the object is stated here"),),
         )
     return vessel, vessel.shape, vessel.liquid
-
-
-def _fill(work: Work, vessel: LabObject) -> float | None:
-    facts = (fact for fact in work.step.state_before if fact.variable == "volume")
-    value = next((fact.value for fact in facts if fact.subject == vessel.name), None)
-    return value.si if isinstance(value, Quantity) else None
-
-
-def _cap(work: Work, vessel: LabObject) -> str:
-    """The vessel's cap at this step: as the plan knows it, else as the profile says; empty without one."""
-    facts = (fact for fact in work.step.state_before if fact.variable == "cap")
-    known = next((str(fact.value) for fact in facts if fact.subject == vessel.name), None)
-    return known or next((state.initial for state in vessel.states if state.name == "cap"), "")
 
 
 def _refuse_volume(

@@ -17,13 +17,14 @@ from xei_lang.ir.skill_plan import ObjectRef, Side
 from xei_lang.ir.tool_paths import Turn
 from xei_lang.lower.operations.base import Aim, Axis, Operation, Planned, Work
 from xei_lang.lower.operations.held import held_of_step
+from xei_lang.lower.operations.state_before import volume_in
 from xei_lang.lower.operations.vessel import Vessel
 from xei_lang.lower.parameters import Setting, computed_length
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.robot import reach_direction
 from xei_lang.lower.walk import Held
 from xei_lang.profiles.model import LabObject, Liquid
-from xei_lang.quantity import Quantity, quantity
+from xei_lang.quantity import quantity
 from xei_lang.quantity.lengths import exact_mm
 
 _CLEARANCE_M = 0.015
@@ -148,9 +149,8 @@ def _fill(work: Work, source: LabObject, liquid: Liquid) -> Setting:
 
     Taken for full, it is never tilted too far: too little is poured rather than too much.
     """
-    facts = (fact for fact in work.step.state_before if fact.variable == "volume")
-    known = next((fact.value for fact in facts if fact.subject == source.name), None)
-    if isinstance(known, Quantity):
+    known = volume_in(work, source.name)
+    if known is not None:
         stated = Setting("fill", known, "computed", f"what is in `{source.name}` at this step", None)
     else:
         full = quantity(Fraction(round(liquid.capacity_m3 * 1e9), 1000), "mL")
