@@ -19,6 +19,7 @@ from xei_lang.syntax.tables import END
 _HEADERS = frozenset(
     ["for", "repeat", "if", "keep", "pause", "do", "parallel", "protocol", "procedure", "else"]
 )
+_BEHIND_BLOCK = frozenset(["within", "after"])
 _FEW = 3
 _LINES_FOR_EACH = 8
 """Where more faults show than one in so many lines, it is the indentation that has no order."""
@@ -41,7 +42,8 @@ class BraceFault:
 class _Open:
     """A block that is open: indentation and number of its line, its brace, how far its lines stand in.
 
-    `fault` is there for a block whose brace is missing; `loose` if only the indentation says that it exists.
+    `fault` is there for a block whose brace is missing; `loose` if only the indentation says that it exists;
+    `branches` if it holds blocks, and nothing else.
     """
 
     indent: int
@@ -50,6 +52,7 @@ class _Open:
     inner: int = -1
     fault: BraceFault | None = None
     loose: bool = False
+    branches: bool = False
 
 
 def find_brace_faults(tokens: Sequence[Token], text: str) -> tuple[BraceFault, ...]:
@@ -110,9 +113,14 @@ class _Search:
             width = self._lost_before_else(begin, width)
         if begins or first.kind == END:
             self._depth = 0
-        if self._depth == 0 and (begins or first.kind == END):
-            self._dedent(begin, width, first)
-            self._stands_in(begin, width, number)
+        if self._depth == 0:
+            # What continues a statement stands at least as far in: a line that does not is behind its block.
+            if not begins and self._stands_before(width):
+                self._missing(begin)
+            if first.text not in _BEHIND_BLOCK:
+                self._dedent(begin, width, first)
+            if begins or self._in_parallel():
+                self._stands_in(begin, width, number)
         header = self._lost_opening(begin, end, width)
         if header == "inline":
             self._push(width, number, None)
@@ -146,14 +154,22 @@ class _Search:
         while self._open and self._open[-1].indent >= least:
             self._missing(index)
 
+    def _stands_before(self, width: int) -> bool:
+        """Whether a line stands further out than the statements of the innermost block."""
+        return bool(self._open) and width < self._open[-1].inner
+
+    def _in_parallel(self) -> bool:
+        """Whether a block can stand here, and nothing else."""
+        return bool(self._open) and self._open[-1].branches
+
     def _stands_in(self, index: int, width: int, number: int) -> None:
-        """Open a block where a line stands further in than those before it, if nothing else explains that."""
-        if not self._open or self._tokens[index].text in ("{", "}"):
+        """Open a block where a line stands further in than those before, or where only blocks can stand."""
+        if not self._open or self._tokens[index].text in ("{", "}", ""):
             return
         top = self._open[-1]
         if top.inner < 0:
             top.inner = min(width, top.indent + self._unit) if width - top.indent == 2 * self._unit else width
-        if width > top.inner:
+        if width > top.inner or self._in_parallel():
             fault = BraceFault("opening", index, None, top.inner)
             self._open.append(_Open(top.inner, number, None, width, fault, loose=True))
 
@@ -176,13 +192,13 @@ class _Search:
         elif token.text in (")", "]"):
             self._depth = max(0, self._depth - 1)
         elif token.text == "{":
-            self._push(width, number, token)
+            self._push(width, number, token, branches=self._tokens[index - 1].text == "parallel")
         elif token.text == "}":
             self._close(index, begin, width, number)
 
-    def _push(self, width: int, number: int, token: Token | None) -> None:
+    def _push(self, width: int, number: int, token: Token | None, *, branches: bool = False) -> None:
         self.balance += 1
-        self._open.append(_Open(width, number, token))
+        self._open.append(_Open(width, number, token, branches=branches))
 
     def _close(self, index: int, begin: int, width: int, number: int) -> None:
         self.balance -= 1

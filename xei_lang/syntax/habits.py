@@ -10,6 +10,7 @@ from xei_lang.syntax.habit import Habit, instead
 from xei_lang.syntax.habit_signs import find_sign_habit
 from xei_lang.syntax.habit_units import find_unit_habit
 from xei_lang.syntax.habit_words import find_pair_habit, find_word_habit
+from xei_lang.syntax.layout import line_end
 from xei_lang.syntax.lexer import Token
 
 
@@ -75,7 +76,7 @@ def _several_names(previous: Token, token: Token, text: str) -> Habit | None:
         return found and Habit(message, "expected a name", found.start(), found.end(), help_, found[1])
     line = text[text.rfind("\n", 0, previous.start) + 1 : previous.start]
     found = _ASSIGNED.match(text, previous.start) if token.text == "," and not line.strip(" \t{}") else None
-    if found is None or found.end(1) == previous.end:
+    if found is None or found.end(1) == previous.end or _closes_a_call(text, found.end()):
         return None
     names, help_ = found[1], f"write `let {found[1]} = ...`; a name keeps its value"
     message, label = f"`{names}` are given values without `let`", "no assignment can stand here"
@@ -104,6 +105,12 @@ def _assignment(before: Sequence[Token], token: Token, text: str) -> Habit | Non
         return Habit(
             f"`{name.text}` is measured without a type", "expected `:`", name.start, token.end, help_
         )
+    return _without_let(earlier, name, token, text)
+
+
+def _without_let(earlier: Token | None, name: Token, token: Token, text: str) -> Habit | None:
+    if _closes_a_call(text, token.end):
+        return None
     begins = earlier is None or earlier.text in "{}" or "\n" in text[earlier.end : name.start]
     return Habit(
         f"`{name.text}` is given a value without `let`",
@@ -113,6 +120,20 @@ def _assignment(before: Sequence[Token], token: Token, text: str) -> Habit | Non
         (f"write `let {name.text} = ...`; a name keeps its value",),
         f"let {name.text} =" if begins else None,
     )
+
+
+_PARENTHESIS = re.compile(r'"[^"\n]*"|[()]')
+_FAR = 1_000
+
+
+def _closes_a_call(text: str, start: int) -> bool:
+    """Whether a `)` that nothing has opened follows on the line: a step that lacks its `(` then."""
+    depth = 0
+    for found in _PARENTHESIS.finditer(text, start, min(line_end(text, start), start + _FAR)):
+        depth += (found[0] == "(") - (found[0] == ")")
+        if depth < 0:
+            return True
+    return False
 
 
 def _kept_apart(habit: Habit, text: str) -> Habit:
