@@ -11,14 +11,8 @@ from xei_lang.ir.skill_plan import ObjectRef
 from xei_lang.lower.hand import hand_of
 from xei_lang.lower.operations.approach import back_off
 from xei_lang.lower.operations.base import Aim, Operation, Planned, Work
-from xei_lang.lower.operations.grasp_family import (
-    MIN_CLEARANCE_M,
-    Closing,
-    Request,
-    grasps,
-    height_of,
-    is_round,
-)
+from xei_lang.lower.operations.closing import MIN_CLEARANCE_M, Closing, height_of, is_round
+from xei_lang.lower.operations.grasp_family import Request, grasps
 from xei_lang.lower.operations.grasp_ways import ELEVATIONS_DEG
 from xei_lang.lower.operations.jaws import Seen, jaws_on
 from xei_lang.lower.parameters import Setting, computed_length

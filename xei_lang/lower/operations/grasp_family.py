@@ -13,35 +13,25 @@ import math
 from operator import itemgetter
 
 from xei_lang.ir.families import Members, Point, Turned
-from xei_lang.ir.geometry import Box, Capsule, Cylinder, Pose, Shape, Sphere, Vec3
+from xei_lang.ir.geometry import Pose, Vec3
 from xei_lang.lower.hand import Hand
 from xei_lang.lower.operations.approach import standoff_needed_m
-from xei_lang.lower.operations.grasp_ways import (
-    ELEVATIONS_DEG,
-    FACES_X_RAD,
-    FACES_Y_RAD,
-    ROUND_RAD,
-    WAYS,
-    Tilt,
-)
+from xei_lang.lower.operations.closing import Closing
+from xei_lang.lower.operations.grasp_ways import ELEVATIONS_DEG, WAYS, Tilt
 from xei_lang.record import Record, record
 
-MIN_CLEARANCE_M = 0.001
 _TOP_MARGIN_M = 0.013
-_BEHIND = -0.5
+"""How far the highest grasp point lies under the top, on objects that are tall enough."""
 _STEEP_DEG = 60.0
+_BEHIND = -0.5
+"""The least cosine between heading and reach of an approach that is not steep: others come from behind."""
 _UPWARD = 0.05
+"""The most that an approach may point up, as the z of its unit vector in the base frame."""
 
-
-@record
-class Closing(Record):
-    """One way to close: the width between the jaws, half the depth across them, and the headings (rad) it
-    allows.
-    """
-
-    width_m: float
-    half_depth_m: float
-    headings_rad: tuple[float, ...]
+_BACK_COST = 0.2
+"""For each unit that a heading's cosine lacks to straight away from the robot."""
+_LOW_COST = 0.1
+"""Of a grasp at the very bottom; at the top it is 0."""
 
 
 @record
@@ -77,6 +67,7 @@ class Grasps(Record):
 
 
 _Row = tuple[float, Turned, Point]
+"""A member, as `Members` has it: its cost, its orientation, its grasp point."""
 
 _Height = tuple[float, Point]
 """A grasp point on the object's axis, in the object's frame, and what it costs in millionths."""
@@ -87,30 +78,6 @@ vector in the base frame.
 """
 
 _COST = itemgetter(0)
-
-
-def closings(shape: Shape) -> tuple[Closing, ...]:
-    """The ways to close on a shape whose axis is z: any heading on a round one, two pairs of faces on a
-    box.
-    """
-    if isinstance(shape, Box):
-        x, y, _ = shape.size_m
-        return (Closing(y, x / 2, FACES_X_RAD), Closing(x, y / 2, FACES_Y_RAD))
-    return (Closing(2 * shape.radius_m, shape.radius_m, ROUND_RAD),)
-
-
-def height_of(shape: Shape) -> float:
-    """Height of a shape from its bottom to its top, metres."""
-    if isinstance(shape, Box):
-        return shape.size_m[2]
-    if isinstance(shape, Sphere):
-        return 2 * shape.radius_m
-    return shape.height_m + (2 * shape.radius_m if isinstance(shape, Capsule) else 0.0)
-
-
-def is_round(shape: Shape) -> bool:
-    """Whether the shape may be turned about its z axis without any difference."""
-    return isinstance(shape, (Cylinder, Sphere, Capsule))
 
 
 def grasps(request: Request) -> Grasps | None:
@@ -145,13 +112,15 @@ def _in_base(request: Request, headings: tuple[Vec3, ...]) -> list[_Heading]:
 def _hopeful(tilt: Tilt, headings: list[_Heading], axis_z: float) -> list[tuple[int, float]]:
     """The headings left at a tilt, by their numbers, with what the way costs without its height; left out are
     approaches that point up, or come back towards the robot from behind the object without being steep.
+
+    `axis_z` is how far the object's axis points up, 1 where it stands upright.
     """
     behind = _BEHIND if tilt.elevation_deg < _STEEP_DEG else -math.inf
     level, down, cost = tilt.level, tilt.down * axis_z, tilt.cost
     # Side and oblique grasps first, heading away from the robot; a straight one heads nowhere.
-    away = 0.0 if tilt.elevation_deg == 90.0 else 0.2
+    back_cost = 0.0 if tilt.elevation_deg == 90.0 else _BACK_COST
     return [
-        (number, cost + away * (1.0 - alignment))
+        (number, cost + back_cost * (1.0 - alignment))
         for number, (alignment, rise) in enumerate(headings)
         if alignment >= behind and level * rise - down <= _UPWARD
     ]
@@ -163,6 +132,7 @@ def _rows(
     """The members at one tilt, in the order of their names; their costs, of about 0 .. 1, have six
     decimals.
     """
+    # Each `for` over a tuple of one gives a value its name; the half rounds costs to whole millionths.
     return [
         ((millionths + height_cost) // 1.0 / 1e6, turned, point)
         for number, way_cost in hopeful
@@ -177,16 +147,17 @@ def _heights(request: Request, tilt: Tilt, drop_m: float, deepest_m: float) -> t
     """Heights of the grasp point above the object's bottom that keep floor, palm and standoff, highest first,
     which is cheapest first; and the longest way back that one of them needs (m).
     """
-    top, half = request.height_m, request.closing.half_depth_m
+    top, half_depth_m = request.height_m, request.closing.half_depth_m
     lowest = max(request.floor_m + request.clearance_m + drop_m, top - deepest_m)
     found: list[_Height] = []
     longest_m = 0.0
     for exact in _sampled(request, lowest):
+        # Up to a tenth of a millimetre, as the name says it, and never under the lowest.
         height = math.ceil(exact * 10_000 - 1e-6) / 10_000
-        standoff_m = standoff_needed_m(top - height, half, tilt.down, tilt.level, request.hand)
+        standoff_m = standoff_needed_m(top - height, half_depth_m, tilt.down, tilt.level, request.hand)
         if standoff_m <= request.standoff_m + 1e-9:
             under = f", {(top - height) * 1000:.1f} mm under the top"
-            found.append((1e6 * (0.1 * (1.0 - height / top)), (under, (0.0, 0.0, height))))
+            found.append((1e6 * (_LOW_COST * (1.0 - height / top)), (under, (0.0, 0.0, height))))
             longest_m = max(longest_m, standoff_m)
     return found, longest_m
 

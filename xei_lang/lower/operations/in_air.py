@@ -42,30 +42,33 @@ def room_in_air(work: Work, sides: tuple[Side, ...], radius_m: float) -> tuple[V
 
 
 def _highest(work: Work, x: float, y: float, radius_m: float) -> float:
-    """The top of the highest object that reaches under a circle, in the base frame; 0 where there is none."""
+    """The top of the highest object that reaches under a level circle about `(x, y)`, in the base frame; 0
+    where there is none.
+    """
     T_world_base = work.scene.epoch.T_world_base
     T_base_world = T_world_base.inverse()
     up_x, up_y, up_z = T_world_base.rotate((0.0, 0.0, 1.0))
-    qx, qy, qz = T_world_base.apply((x, y, 0.0))
+    foot_x, foot_y, foot_z = T_world_base.apply((x, y, 0.0))
     near: list[tuple[float, float, Standing, LabObject]] = []
     for name, standing in work.scene.standing.items():
         known = work.profile.object(name)
         if known is None:
             continue
         px, py, pz = standing.T_world_object.position_m
-        dx, dy, dz = qx - px, qy - py, qz - pz
+        dx, dy, dz = foot_x - px, foot_y - py, foot_z - pz
+        # How far the circle's foot is over the object's origin, and how high the object is if it is upright.
         over = dx * up_x + dy * up_y + dz * up_z
         length, width, height = known.size_m
         reach = radius_m + length + width + height
         if dx * dx + dy * dy + dz * dz - over * over <= reach * reach:
             near.append((height - over, over, standing, known))
     top = 0.0
-    for most, over, standing, known in sorted(near, key=itemgetter(0), reverse=True):
-        # None is higher than upright.
-        if most < top - _ALIKE_M:
+    for upright, over, standing, known in sorted(near, key=itemgetter(0), reverse=True):
+        # None is higher than it is upright, nor are those after it.
+        if upright < top - _ALIKE_M:
             break
         # The circle's middle at the height of the object's origin.
-        point = (qx - over * up_x, qy - over * up_y, qz - over * up_z)
+        point = (foot_x - over * up_x, foot_y - over * up_y, foot_z - over * up_z)
         beside_x, beside_y, _ = standing.T_world_object.locate(point)
         length, width, height = known.size_m
         away = math.hypot(max(0.0, abs(beside_x) - length / 2), max(0.0, abs(beside_y) - width / 2))

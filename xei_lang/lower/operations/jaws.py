@@ -8,7 +8,7 @@ from xei_lang.diagnostics import Label
 from xei_lang.ir.geometry import Pose
 from xei_lang.lower.hand import Hand
 from xei_lang.lower.operations.base import Work
-from xei_lang.lower.operations.grasp_family import MIN_CLEARANCE_M, Closing, closings
+from xei_lang.lower.operations.closing import MIN_CLEARANCE_M, Closing, closings
 from xei_lang.lower.parameters import ROUNDING_M, Setting, computed_length
 from xei_lang.lower.refusal import refuse
 from xei_lang.profiles.model import LabObject
