@@ -67,4 +67,40 @@ def test_what_may_hold_is_not_doubted(tmp_path, requires, ensures):
     assert [found.code for found in diagnostics if found.code in CODES] == []
 
 
+TAKE = "- attach: {object: object, arm: arm}"
+LET_GO = "- detach: {object: object, arm: arm, at: back}"
+
+
+@pytest.mark.parametrize(
+    ("requires", "ensures", "lines"),
+    [
+        (["holding(arm) == nothing"], ["holding(arm) := nothing", "at(object) := back"], [TAKE, LET_GO]),
+        (["holding(arm) == nothing"], ["at(object) := back"], [TAKE, LET_GO]),
+        ([], ["holding(arm) := object", "at(object) := arm"], [TAKE]),
+        ([], [], [TAKE, LET_GO]),
+        (["holding(arm) == object"], ["holding(arm) := nothing"], [LET_GO]),
+        (["holding(arm) == object"], ["holding(arm) := object"], []),
+        (["holding(arm) == nothing"], ["holding(arm) := nothing"], []),
+        (["holding(arm) == object"], [], []),
+        (["holding(arm) == nothing"], ["holding(arm) := tube_b"], [TAKE]),
+        (["holding(arm) == nothing or holding(arm) == object"], ["holding(arm) := object"], []),
+        (["holding(arm) == nothing"], ["holding(arm) == object", "holding(arm) := object"], [TAKE]),
+    ],
+)
+def test_what_a_template_may_leave_is_not_doubted(tmp_path, requires, ensures, lines):
+    contract = [
+        f"{key}: [{', '.join(f'{chr(34)}{rule}{chr(34)}' for rule in rules)}]"
+        for key, rules in (("requires", requires), ("ensures", ensures))
+    ]
+    pairs = [
+        ("- " + REQUIRES, "+ " + contract[0]),
+        ("- " + ENSURES, "+ " + contract[1]),
+        ("- " + TAKE, "+ " + "\\n      ".join(lines or ["- wait: {for: pour_time}"])),
+        ("- arm: {type: Arm", "+ back: {type: Place}\\n      arm: {type: Arm"),
+    ]
+    edit = "\n".join(("development_profile.yaml", *(line for pair in pairs for line in pair)))
+    _, diagnostics = load_profile(changed_profile(tmp_path, edit), None)
+    assert [found.message for found in diagnostics if found.code != "XEI0629"] == []
+
+
 CODES = ("XEI0626", "XEI0627", "XEI0628", "XEI0629", "XEI0644", "XEI0645")

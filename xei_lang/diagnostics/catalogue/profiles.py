@@ -40,6 +40,7 @@ ENTRIES = {
     "XEI0644": Entry("a template whose lines cannot follow each other"),
     "XEI0645": Entry("a skill of a part that the robot lacks"),
     "XEI0646": Entry("a thread that does not fit its cap, its vessel or its rest"),
+    "XEI0647": Entry("a template that does not do what its skill ensures"),
     "XEI0650": Entry("the robot's description cannot be read"),
     "XEI0651": Entry("a planning limit that does not fit the robot"),
     "XEI0652": Entry("a scene file that does not follow its form"),

@@ -16,13 +16,18 @@ from xei_lang.syntax import ast
 def check_contradictions(profile: Profile) -> Iterator[Diagnostic]:
     """The contract of each skill against itself; only what is certain whatever the arguments are."""
     for skill in profile.bank.skills:
-        before = list(facts_of(skill.requires, "requires"))
-        yield from _pairs(skill, before)
-        changes = [rule.predicate for rule in skill.ensures if isinstance(rule.predicate, ast.Update)]
-        yield from _set_twice(changes)
-        yield from _hands(skill, changes)
-        yield from _below_nothing(skill, before, changes)
-        yield from _pairs(skill, _after(skill, before, changes))
+        yield from contradictions_of(skill)
+
+
+def contradictions_of(skill: SkillSpec) -> Iterator[Diagnostic]:
+    """The same of one skill."""
+    before = list(facts_of(skill.requires, "requires"))
+    yield from _pairs(skill, before)
+    changes = [rule.predicate for rule in skill.ensures if isinstance(rule.predicate, ast.Update)]
+    yield from _set_twice(changes)
+    yield from _hands(skill, changes)
+    yield from _below_nothing(skill, before, changes)
+    yield from _pairs(skill, _after(skill, before, changes))
 
 
 def _pairs(skill: SkillSpec, facts: list[Fact]) -> Iterator[Diagnostic]:

@@ -1,11 +1,15 @@
-"""Templates whose lines cannot follow each other (XEI0644), as far as that is certain without any object."""
+"""Templates whose lines cannot follow each other (XEI0644), as far as that is certain without objects; what
+others leave behind is held against their skills.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from xei_lang.diagnostics import Diagnostic
+from xei_lang.profiles.checks.contradictions import contradictions_of
 from xei_lang.profiles.checks.rule_facts import facts_of
+from xei_lang.profiles.checks.template_outcome import NOTHING, Outcome, check_outcome, names_hands
 from xei_lang.profiles.model import Profile, SkillSpec, TemplateStep
 from xei_lang.syntax import ast
 
@@ -14,9 +18,13 @@ _BEGUN = ("arc", "screw", "raster")
 
 
 def check_template_order(profile: Profile) -> Iterator[Diagnostic]:
-    """Every template from its first line to its last."""
+    """Every template from its first line to its last, and where nothing is wrong so far, what it leaves."""
     for skill in profile.bank.skills:
-        yield from _Walk(skill).faults()
+        walk = _Walk(skill)
+        faults = tuple(walk.faults())
+        yield from faults
+        if not faults and names_hands(skill, profile.bank.arms) and not any(contradictions_of(skill)):
+            yield from check_outcome(skill, walk.outcome())
 
 
 class _Walk:
@@ -29,9 +37,12 @@ class _Walk:
             fact.key[1]: fact.value.id
             for fact in facts
             if fact.key[0] == "holding" and fact.op == "==" and isinstance(fact.value, ast.Name)
-            if fact.value.id == "nothing" or skill.arg(fact.value.id) is not None
+            if fact.value.id == NOTHING or skill.arg(fact.value.id) is not None
         }
         self.unclear = any(isinstance(rule.predicate, (ast.BoolOp, ast.Unary)) for rule in skill.requires)
+        self.begun = dict(self.held)
+        self.left: dict[str, str] = {}
+        self.taken: dict[str, TemplateStep] = {}
         self.closed: set[str] = set()
         self.led: set[str] = set()
 
@@ -47,7 +58,7 @@ class _Walk:
         holds = self.held.get(arm)
         if line.kind == "attach" and holds == thing:
             yield self.say(line, f"`{thing}` is taken twice", "in the hand already", "leave the line out")
-        elif line.kind == "attach" and holds not in (None, "nothing"):
+        elif line.kind == "attach" and holds not in (None, NOTHING):
             label = f"the hand holds `{holds}`"
             yield self.say(line, f"`{thing}` is taken by a full hand", label, "detach the other one first")
         elif line.kind == "attach" and arm not in self.closed:
@@ -69,19 +80,28 @@ class _Walk:
 
     def follow(self, line: TemplateStep, arm: str, thing: str) -> None:
         """What the line changes."""
+        if thing:
+            self.taken[arm] = self.taken[thing] = line
         match line.kind:
             case "close_gripper":
                 self.closed.add(arm)
             case "open_gripper":
                 self.closed.discard(arm)
             case "attach":
+                self.begun.setdefault(arm, NOTHING)
                 self.held[arm] = thing
+                self.left[thing] = arm
             case "detach":
-                self.held[arm] = "nothing"
+                self.held[arm] = NOTHING
+                self.left[thing] = str(line.field("at"))
             case "move_to" if line.field("at") is not None:
                 self.led.add(arm)
             case _:
                 pass
+
+    def outcome(self) -> Outcome:
+        """What is known once all lines are gone through."""
+        return Outcome(self.begun, self.held, self.left, self.taken, self.unclear)
 
     def say(self, line: TemplateStep, what: str, label: str, help_: str) -> Diagnostic:
         message = f"in the template of `{self.skill.name}` {what}"
@@ -89,4 +109,4 @@ class _Walk:
 
 
 def _shown(holds: str) -> str:
-    return "nothing" if holds == "nothing" else f"`{holds}`"
+    return NOTHING if holds == NOTHING else f"`{holds}`"
