@@ -13,6 +13,7 @@ from xei_lang.ir.goals import Grip, JointTarget, MotionGoal, MoveTo, SlideMove
 from xei_lang.ir.timed import TimedGoal
 from xei_lang.motion.verify.context import Context, pose_error
 from xei_lang.motion.verify.evaluate import Array, grid
+from xei_lang.motion.verify.timeline import Held
 from xei_lang.motion.verify.tool_paths import check_tool_path
 
 
@@ -46,18 +47,33 @@ def _check_move(context: Context, goal: TimedGoal, action: MoveTo) -> None:
     tool = _tool(context, goal, action.arm)
     _check_tool(context, goal, action.target, tool)
     if goal.id in context.timeline.motions:
-        if action.path == "linear":
-            _check_line(context, goal, action.arm)
-        if action.along is not None or action.tool_speed_m_s or action.tool_turn_rad_s:
-            link = next(link for side, link in context.about.tool_links if side == action.arm)
-            check_tool_path(context, goal, action, link, *_rows(context, goal))
-        if action.keep_upright and context.options.upright_tilt_rad is not None:
-            _check_tilt(context, goal, context.options.upright_tilt_rad)
+        _check_way(context, goal, action, _tool_link(context, action.arm))
+
+
+def _check_way(context: Context, goal: TimedGoal, action: MoveTo, link: str) -> None:
+    """What the goal asks of its whole way, looked at in one run through it."""
+    stated = action.along is not None or bool(action.tool_speed_m_s or action.tool_turn_rad_s)
+    tilt_rad = context.options.upright_tilt_rad if action.keep_upright else None
+    if action.path != "linear" and not stated and tilt_rad is None:
+        return
+    held = _in_jaws(context, goal)
+    times, q = _rows(context, goal)
+    frames = context.robot.frames(q, tuple(dict.fromkeys((link, *(item.link for item in held)))))
+    if action.path == "linear":
+        _check_line(context, goal, link, times, frames[link][1])
+    if stated:
+        check_tool_path(context, goal, action, link, times, frames[link])
+    if tilt_rad is not None:
+        for item in held:
+            _check_tilt(context, goal, item, times, frames[item.link][0], bound_rad=tilt_rad)
+
+
+def _tool_link(context: Context, arm: str) -> str:
+    return next(link for side, link in context.about.tool_links if side == arm)
 
 
 def _tool(context: Context, goal: TimedGoal, arm: str) -> Pose:
-    link = next(link for side, link in context.about.tool_links if side == arm)
-    return context.robot.pose(context.timeline.ends[goal.id].q, link)
+    return context.robot.pose(context.timeline.ends[goal.id].q, _tool_link(context, arm))
 
 
 def _check_joints(context: Context, goal: TimedGoal, target: JointTarget) -> None:
@@ -187,10 +203,7 @@ def _rows(context: Context, goal: TimedGoal) -> tuple[Array, Array]:
     return goal.start_s + times, q
 
 
-def _check_line(context: Context, goal: TimedGoal, arm: str) -> None:
-    link = next(link for side, link in context.about.tool_links if side == arm)
-    times, q = _rows(context, goal)
-    _, points = context.robot.frames(q, (link,))[link]
+def _check_line(context: Context, goal: TimedGoal, link: str, times: Array, points: Array) -> None:
     along = points[-1] - points[0]
     length = float(np.linalg.norm(along))
     direction = along / length if length > 1e-9 else np.zeros(3)
@@ -205,25 +218,20 @@ def _check_line(context: Context, goal: TimedGoal, arm: str) -> None:
         context.found("linear_path", goal, time, link, text, value=value, limit=limit, unit="m")
 
 
-def _check_tilt(context: Context, goal: TimedGoal, bound_rad: float) -> None:
-    times, q = _rows(context, goal)
-    for held in context.timeline.starts[goal.id].scene.held:
-        if held.side != goal.arm or held.rides_on:
-            continue
-        rotation, _ = context.robot.frames(q, (held.link,))[held.link]
-        upright = np.array(held.T_link_object.axes()[2])
-        tilt = np.arccos(np.clip((rotation @ upright)[:, 2], -1.0, 1.0))
-        worst = int(np.argmax(tilt))
-        context.margin("tilt", float(tilt[worst]) / bound_rad, held.object, goal.id, float(times[worst]))
-        if tilt[worst] > bound_rad:
-            text = f"`{held.object}` tilts"
-            context.found(
-                "tilt",
-                goal,
-                float(times[worst]),
-                held.object,
-                text,
-                value=float(tilt[worst]),
-                limit=bound_rad,
-                unit="rad",
-            )
+def _in_jaws(context: Context, goal: TimedGoal) -> list[Held]:
+    """What the goal's hand holds; what rides on that moves and tilts as it does."""
+    held = context.timeline.starts[goal.id].scene.held
+    return [item for item in held if item.side == goal.arm and not item.rides_on]
+
+
+def _check_tilt(
+    context: Context, goal: TimedGoal, held: Held, times: Array, rotation: Array, *, bound_rad: float
+) -> None:
+    upright = np.array(held.T_link_object.axes()[2])
+    tilt = np.arccos(np.clip((rotation @ upright)[:, 2], -1.0, 1.0))
+    worst = int(np.argmax(tilt))
+    value, time = float(tilt[worst]), float(times[worst])
+    context.margin("tilt", value / bound_rad, held.object, goal.id, time)
+    if value > bound_rad:
+        text = f"`{held.object}` tilts"
+        context.found("tilt", goal, time, held.object, text, value=value, limit=bound_rad, unit="rad")

@@ -17,7 +17,7 @@ from xei_lang.ir.timed import TimedGoal
 from xei_lang.ir.tool_paths import Raster, Turn
 from xei_lang.motion.verify.context import Context
 from xei_lang.motion.verify.evaluate import Array
-from xei_lang.motion.verify.robot import turn
+from xei_lang.motion.verify.robot import Frames, turn
 
 _FINE_M = 0.0005
 _BACK_M = 0.002
@@ -25,12 +25,10 @@ _AHEAD_M = 0.02
 
 
 def check_tool_path(
-    context: Context, goal: TimedGoal, action: MoveTo, link: str, times: Array, q: Array
+    context: Context, goal: TimedGoal, action: MoveTo, link: str, times: Array, tool: Frames
 ) -> None:
-    """The tool `link` over configurations (n, joints) at plan times (n,) against the goal's path and
-    bounds.
-    """
-    rotation, origin = context.robot.frames(q, (link,))[link]
+    """Where the tool `link` is at plan times (n,) against the goal's path and bounds."""
+    rotation, origin = tool
     if isinstance(action.along, Turn):
         _check_turn(context, goal, action.along, link, times, rotation, origin)
     elif isinstance(action.along, Raster):
