@@ -23,6 +23,8 @@ from xei_lang.motion.verify.pairs import Pairs, Rows
 from xei_lang.motion.verify.timeline import Phase
 
 _NODE_STRIDE = 16
+_GLANCE_STRIDE = 16
+"""Nodes from one glance to the next: pairs that these few keep apart are not looked at in all the others."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,14 +76,22 @@ def _check_phase(context: Context, bodies: Bodies, pairs: Pairs, phase: Phase) -
 
 def _sift(phase: Phase, pairs: Pairs, rows: Rows, travel: Array, contact_m: float) -> list[_Near]:
     """The pairs that lower bounds at some nodes do not already keep apart from node to node."""
-    nodes = np.unique([*range(0, len(phase.times), _NODE_STRIDE), len(phase.times) - 1])
-    gaps = pairs.gaps(pairs.centers(phase.q[nodes], phase.scene), rows, phase.scene) - contact_m
-    # Sums over few columns, written as einsum: a threaded matrix product costs more than it saves here.
+    nodes = _every(_NODE_STRIDE, len(phase.times))
+    centers = pairs.centers(phase.q[nodes], phase.scene)
     columns = np.flatnonzero(travel[-1] > 0.0)
-    travel, weights = travel[:, columns], pairs.weights[np.ix_(rows, columns)]
-    steps = np.einsum("nj,pj->np", np.diff(travel[nodes], axis=0), weights)
-    apart = np.all(gaps > 0.0, axis=0) & np.all(gaps[1:] + gaps[:-1] > steps, axis=0)
-    return [_Near(int(rows[k]), np.einsum("nj,j->n", travel, weights[k])) for k in np.flatnonzero(~apart)]
+    travel, weights = travel[:, columns], pairs.weights[:, columns]
+    for some in (_every(_GLANCE_STRIDE, len(nodes)), np.arange(len(nodes))):
+        gaps = pairs.gaps(centers[some], rows, phase.scene) - contact_m
+        # Sums over few columns, written as einsum: a threaded matrix product costs more than it saves here.
+        steps = np.einsum("nj,pj->np", np.diff(travel[nodes[some]], axis=0), weights[rows])
+        apart = np.all(gaps > 0.0, axis=0) & np.all(gaps[1:] + gaps[:-1] > steps, axis=0)
+        rows = rows[~apart]
+    return [_Near(row, np.einsum("nj,j->n", travel, weights[row])) for row in rows.tolist()]
+
+
+def _every(stride: int, count: int) -> Rows:
+    """Each `stride`-th of so many, and the last."""
+    return np.unique([*range(0, count, stride), count - 1])
 
 
 def _advance(context: Context, bodies: Bodies, pairs: Pairs, phase: Phase, near: list[_Near]) -> int:
