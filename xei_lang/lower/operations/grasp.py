@@ -15,6 +15,7 @@ from xei_lang.lower.operations.closing import MIN_CLEARANCE_M, Closing, height_o
 from xei_lang.lower.operations.grasp_family import Request, grasps
 from xei_lang.lower.operations.grasp_ways import ELEVATIONS_DEG
 from xei_lang.lower.operations.jaws import Seen, jaws_on
+from xei_lang.lower.operations.standing import standing_object
 from xei_lang.lower.parameters import Setting, computed_length
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.robot import reach_direction
@@ -58,7 +59,6 @@ def plan(work: Work) -> Planned:
 
 
 def _graspable(work: Work, name: str) -> tuple[Standing, LabObject]:
-    known, standing = work.profile.object(name), work.scene.standing.get(name)
     held = work.scene.held.get(work.arm)
     if held is not None:
         refuse(
@@ -78,10 +78,9 @@ def _graspable(work: Work, name: str) -> tuple[Standing, LabObject]:
             "expected an object that stands somewhere",
             (work.scene.held[holder].since,),
         )
-    if known is None or standing is None:
-        refuse("XEI0710", f"it is not known where `{name}` stands", work.span, "not in the world")
+    known = standing_object(work, name)
     _refuse_carrier(work, name)
-    return standing, known
+    return work.scene.standing[name], known
 
 
 def _refuse_carrier(work: Work, name: str) -> None:

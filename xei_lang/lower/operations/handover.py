@@ -17,7 +17,7 @@ from xei_lang.lower.hand import SIDES
 from xei_lang.lower.operations import grasp
 from xei_lang.lower.operations.approach import back_off
 from xei_lang.lower.operations.base import Aim, Operation, Planned, Work
-from xei_lang.lower.operations.held import in_hand
+from xei_lang.lower.operations.held import held_upright, in_hand
 from xei_lang.lower.operations.in_air import room_in_air
 from xei_lang.lower.operations.place import release_width
 from xei_lang.lower.parameters import Setting, computed_length
@@ -77,9 +77,7 @@ def _meeting(work: Work, held: Held) -> tuple[Pose, tuple[Setting, Setting]]:
     known = work.profile.object(held.object)
     assert known is not None
     (x, y, z), ahead, clearance = room_in_air(work, SIDES, math.hypot(*known.size_m) / 2)
-    heading, _, _ = held.T_base_grasped.axes()
-    yaw = math.atan2(heading[1], heading[0])
-    return Pose.from_rpy((x, y, z - known.size_m[2] / 2), (0.0, 0.0, yaw)), (ahead, clearance)
+    return held_upright(held, (x, y, z - known.size_m[2] / 2)), (ahead, clearance)
 
 
 def _held(work: Work, side: Side) -> Held:

@@ -1,9 +1,11 @@
-"""What a hand must hold for an operation, and what to say where it does not."""
+"""What a hand must hold for an operation, what to say where it does not, and how it holds that upright."""
 
 from __future__ import annotations
 
+import math
 from typing import NoReturn
 
+from xei_lang.ir.geometry import Pose, Vec3
 from xei_lang.ir.skill_plan import ObjectRef, Side
 from xei_lang.lower.operations.base import Work
 from xei_lang.lower.refusal import refuse
@@ -28,6 +30,12 @@ def held_of_step(work: Work, when: str, but: str = "") -> tuple[Held, LabObject]
     wanted = tuple(name for name in named if name != but)
     known = work.profile.object(held.object) if held is not None and held.object in wanted else None
     return (held, known) if held is not None and known is not None else _refuse(work, wanted, when, work.arm)
+
+
+def held_upright(held: Held, origin_m: Vec3) -> Pose:
+    """The held object upright with its own origin at a point of the base frame, turned as it was grasped."""
+    x, y, _ = held.T_base_grasped.axes()[0]
+    return Pose.from_rpy(origin_m, (0.0, 0.0, math.atan2(y, x)))
 
 
 def _refuse(work: Work, wanted: tuple[str, ...], when: str, side: Side) -> NoReturn:

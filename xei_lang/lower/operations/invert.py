@@ -13,11 +13,11 @@ from fractions import Fraction
 
 from xei_lang.diagnostics import Label
 from xei_lang.ir.families import ToolTarget
-from xei_lang.ir.geometry import Pose, Vec3
+from xei_lang.ir.geometry import Vec3
 from xei_lang.ir.skill_plan import ObjectRef, Side
 from xei_lang.ir.tool_paths import Turn
 from xei_lang.lower.operations.base import Aim, Axis, Operation, Planned, Work
-from xei_lang.lower.operations.held import in_hand
+from xei_lang.lower.operations.held import held_upright, in_hand
 from xei_lang.lower.operations.in_air import room_in_air
 from xei_lang.lower.operations.state_before import CAP, cap_of
 from xei_lang.lower.parameters import Setting
@@ -70,7 +70,7 @@ def _plan(work: Work, axis_name: str, angle: Setting, angles: Angles, *more: Set
     radius_m = math.hypot(*known.size_m) / 2
     middle, ahead, clearance = room_in_air(work, (work.arm,), radius_m)
     axis = Axis(middle, _axis(work.arm))
-    upright = _upright(held, (middle[0], middle[1], middle[2] - height_m / 2))
+    upright = held_upright(held, (middle[0], middle[1], middle[2] - height_m / 2))
     uses = (ahead.name, clearance.name)
 
     def aim(turned_rad: float) -> Aim:
@@ -105,11 +105,6 @@ def _closed(work: Work) -> tuple[Held, LabObject]:
             (Label(known.span, "the vessel is stated here"),),
         )
     return held, known
-
-
-def _upright(held: Held, foot: Vec3) -> Pose:
-    x, y, _ = held.T_base_grasped.axes()[0]
-    return Pose.from_rpy(foot, (0.0, 0.0, math.atan2(y, x)))
 
 
 _AIR = ("air_ahead", "air_clearance")

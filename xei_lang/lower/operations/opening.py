@@ -14,6 +14,7 @@ from xei_lang.ir.geometry import Cylinder
 from xei_lang.ir.skill_plan import ObjectRef
 from xei_lang.lower.operations.base import Work
 from xei_lang.lower.operations.pipette import Pipette, goes_in_m
+from xei_lang.lower.operations.standing import standing_object
 from xei_lang.lower.operations.state_before import cap_of, volume_in
 from xei_lang.lower.parameters import Setting
 from xei_lang.lower.refusal import refuse
@@ -88,11 +89,7 @@ def opening_of(work: Work, pipette: Pipette, volume: Setting, sign: int) -> Open
 
 def _vessel(work: Work) -> tuple[LabObject, Cylinder, Liquid]:
     assert isinstance(work.subject, ObjectRef)
-    vessel = work.profile.object(work.subject.name)
-    if vessel is None or vessel.name not in work.scene.standing:
-        refuse(
-            "XEI0710", f"it is not known where `{work.subject.name}` stands", work.span, "not in the world"
-        )
+    vessel = standing_object(work, work.subject.name)
     if not isinstance(vessel.shape, Cylinder) or vessel.liquid is None:
         missing = "`liquid`" if vessel.liquid is None else "a round shape"
         refuse(

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from xei_lang.diagnostics import Label
 from xei_lang.ir.geometry import Box, Capsule, Cylinder, Pose, Primitive, Shape, Vec3
 from xei_lang.lower.operations.base import Work
-from xei_lang.lower.operations.held import held_of_step
+from xei_lang.lower.operations.held import held_of_step, held_upright
 from xei_lang.lower.parameters import Setting, computed_length
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.walk import Held
@@ -35,8 +35,7 @@ class Pipette:
 
     def upright(self, tip_end: Vec3) -> Pose:
         """The pipette upright with the end of its tip at a point, turned as it was grasped."""
-        x, y, _ = self.held.T_base_grasped.axes()[0]
-        return Pose.from_rpy(tip_end, (0.0, 0.0, math.atan2(y, x)))
+        return held_upright(self.held, tip_end)
 
     def tool_point(self) -> Setting:
         """The parameter that says how far the tip's end is below the nose."""

@@ -13,6 +13,7 @@ from xei_lang.lower.operations.approach import back_off
 from xei_lang.lower.operations.base import Aim, Operation, Planned, Work
 from xei_lang.lower.operations.held import in_hand
 from xei_lang.lower.operations.lift import along, clear_travel
+from xei_lang.lower.operations.standing import standing_object
 from xei_lang.lower.operations.surface import free_room
 from xei_lang.lower.parameters import ROUNDING_M, Setting, computed_length
 from xei_lang.lower.refusal import refuse
@@ -81,8 +82,7 @@ def _seat(work: Work, ref: PlaceRef) -> Seat:
     seat = seat_of(ref, host) if host else None
     if host is None or seat is None:
         refuse("XEI0711", f"there is no place `{place_text(ref)}`", work.span, "not a place of this profile")
-    if ref.object not in work.scene.standing:
-        refuse("XEI0710", f"it is not known where `{ref.object}` stands", work.span, "not in the world")
+    standing_object(work, ref.object)
     return seat
 
 

@@ -16,7 +16,8 @@ from xei_lang.ir.geometry import Cylinder, Pose, Vec3
 from xei_lang.ir.skill_plan import ObjectRef, Side
 from xei_lang.ir.tool_paths import Turn
 from xei_lang.lower.operations.base import Aim, Axis, Operation, Planned, Work
-from xei_lang.lower.operations.held import held_of_step
+from xei_lang.lower.operations.held import held_of_step, held_upright
+from xei_lang.lower.operations.standing import standing_object
 from xei_lang.lower.operations.state_before import volume_in
 from xei_lang.lower.operations.vessel import Vessel
 from xei_lang.lower.parameters import Setting, computed_length
@@ -37,11 +38,7 @@ def plan(work: Work) -> Planned:
     """The aims `pour_above` and `pour_tilt` of the held vessel over the subject, and the axis `pour_lip`."""
     assert isinstance(work.subject, ObjectRef)
     held, source = _held(work)
-    target = work.profile.object(work.subject.name)
-    if target is None or work.subject.name not in work.scene.standing:
-        refuse(
-            "XEI0710", f"it is not known where `{work.subject.name}` stands", work.span, "not in the world"
-        )
+    target = standing_object(work, work.subject.name)
     shape, liquid = _round(work, source)
     opening_m = _round(work, target)[1].inner_diameter_m
     clearance = work.layers.merge(
@@ -184,8 +181,7 @@ def _upright(held: Held, shape: Cylinder, lip: Vec3, heading: tuple[float, float
     """The held vessel upright with the lip of this heading at a point, turned as it was grasped."""
     r = shape.radius_m
     foot = (lip[0] - r * heading[0], lip[1] - r * heading[1], lip[2] - shape.height_m)
-    x, y, _ = held.T_base_grasped.axes()[0]
-    return Pose.from_rpy(foot, (0.0, 0.0, math.atan2(y, x)))
+    return held_upright(held, foot)
 
 
 POUR = Operation(

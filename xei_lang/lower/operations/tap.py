@@ -16,6 +16,7 @@ from xei_lang.ir.geometry import Pose, Quaternion, Vec3
 from xei_lang.ir.skill_plan import ObjectRef
 from xei_lang.lower.hand import hand_of, tool_axes
 from xei_lang.lower.operations.base import Aim, Operation, Planned, Work
+from xei_lang.lower.operations.standing import standing_object
 from xei_lang.lower.parameters import Setting, computed_length
 from xei_lang.lower.refusal import refuse
 from xei_lang.profiles.model import Element, LabObject
@@ -72,11 +73,7 @@ def plan_swipe(work: Work) -> Planned:
 
 def _element(work: Work) -> tuple[LabObject, Element]:
     assert isinstance(work.subject, ObjectRef)
-    screen = work.profile.object(work.subject.name)
-    if screen is None or screen.name not in work.scene.standing:
-        refuse(
-            "XEI0710", f"it is not known where `{work.subject.name}` stands", work.span, "not in the world"
-        )
+    screen = standing_object(work, work.subject.name)
     argument = next((item for item in work.step.args if item.name == "element"), None)
     name = str(argument.value) if argument is not None else ""
     found = next((item for item in screen.elements if item.name == name), None)

@@ -16,6 +16,7 @@ from xei_lang.ir.skill_plan import ObjectRef, PlaceRef
 from xei_lang.lower.operations.base import Aim, Operation, Planned, Work
 from xei_lang.lower.operations.lift import along
 from xei_lang.lower.operations.pipette import Pipette, held_pipette
+from xei_lang.lower.operations.standing import standing_object
 from xei_lang.lower.parameters import Layers, Setting, computed_length
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.seats import Seat, seat_of
@@ -80,11 +81,7 @@ def plan_eject(work: Work) -> Planned:
     """The aim `eject`: the end of the tip over the middle of the subject's top."""
     assert isinstance(work.subject, ObjectRef)
     pipette = held_pipette(work)
-    waste = work.profile.object(work.subject.name)
-    if waste is None or waste.name not in work.scene.standing:
-        refuse(
-            "XEI0710", f"it is not known where `{work.subject.name}` stands", work.span, "not in the world"
-        )
+    waste = standing_object(work, work.subject.name)
     height = work.layers.merge(
         "eject_height", computed_length("eject_height", _ABOVE_WASTE_M, "from the tip's end to the top")
     )
@@ -101,8 +98,7 @@ def _seat(work: Work, ref: PlaceRef, pipette: Pipette) -> tuple[Seat, LabObject]
     seat = seat_of(ref, box) if box else None
     if box is None or seat is None:
         refuse("XEI0711", f"there is no place `{ref.object}`", work.span, "not a place of this profile")
-    if box.name not in work.scene.standing:
-        refuse("XEI0710", f"it is not known where `{box.name}` stands", work.span, "not in the world")
+    standing_object(work, box.name)
     grid, tip = seat.grid, pipette.tip
     if grid is None or not is_tip_grid(grid, tip):
         found = "no slot" if grid is None else f"its slots are {exact_mm(grid.depth_m)} deep"

@@ -16,6 +16,7 @@ from xei_lang.ir.tool_paths import Raster
 from xei_lang.lower.operations.base import Aim, Area, Operation, Planned, Work
 from xei_lang.lower.operations.held import in_hand
 from xei_lang.lower.operations.lift import along
+from xei_lang.lower.operations.standing import standing_object
 from xei_lang.lower.parameters import ROUNDING_M, Setting, computed_length
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.seats import Seat, seat_of
@@ -94,9 +95,7 @@ def _seat(work: Work, ref: PlaceRef) -> tuple[Seat, LabObject]:
         refuse(
             "XEI0711", f"there is no place `{ref.object}` to wipe", work.span, "not a place of this profile"
         )
-    if host.name not in work.scene.standing:
-        refuse("XEI0710", f"it is not known where `{host.name}` stands", work.span, "not in the world")
-    return seat, host
+    return seat, standing_object(work, host.name)
 
 
 def _edge(work: Work, name: str) -> Setting:
