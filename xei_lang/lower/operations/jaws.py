@@ -9,6 +9,7 @@ from xei_lang.ir.geometry import Pose
 from xei_lang.lower.hand import Hand
 from xei_lang.lower.operations.base import Work
 from xei_lang.lower.operations.closing import MIN_CLEARANCE_M, Closing, closings
+from xei_lang.lower.operations.jaws_hold import refuse_loose
 from xei_lang.lower.parameters import ROUNDING_M, Setting, computed_length
 from xei_lang.lower.refusal import refuse
 from xei_lang.profiles.model import LabObject
@@ -39,7 +40,7 @@ class Jaws(Record):
 
 def jaws_on(work: Work, known: LabObject, seen: Seen) -> Jaws:
     """The jaws on this object. Refuses one that is too wide for them (XEI0703), and a width that is no gap
-    of theirs (XEI0702).
+    of theirs, does not let them pass it, or does not hold it (XEI0702).
     """
     return _set(work, known, _closing(work, known, seen), seen.hand)
 
@@ -96,4 +97,5 @@ def _set(work: Work, known: LabObject, closing: Closing, hand: Hand) -> Jaws:
                 item.span or work.span,
                 f"expected 0 mm .. {exact_mm(hand.max_gap_m)}",
             )
+    refuse_loose(work, known, closing.width_m, clearance, opening, closed)
     return Jaws(closing, clearance, opening, closed)

@@ -9,6 +9,7 @@ from typing import Literal
 from xei_lang.lower.hand import Hand
 from xei_lang.lower.operations.base import Work
 from xei_lang.lower.operations.closing import MIN_CLEARANCE_M
+from xei_lang.lower.operations.jaws_hold import refuse_loose
 from xei_lang.lower.parameters import Setting, computed_length
 from xei_lang.lower.refusal import refuse
 from xei_lang.profiles.model import LabObject
@@ -19,7 +20,8 @@ def round_jaws(
     work: Work, known: LabObject, hand: Hand, prefix: Literal["hold", "cap"], what: str
 ) -> tuple[Setting, Setting, Setting]:
     """`<prefix>_width`, the same as `grasp_width`, and `<prefix>_open_width`; `what` is the thing in a
-    rule's words. Refuses what is too wide for the gripper (XEI0703).
+    rule's words. Refuses what is too wide for the gripper (XEI0703), and widths that do not pass or hold it
+    (XEI0702).
     """
     wide_m = known.size_m[0]
     if wide_m + 2 * MIN_CLEARANCE_M > hand.max_gap_m + 1e-9:
@@ -40,4 +42,5 @@ def round_jaws(
     opened = work.layers.merge(opening.name, opening)
     assert closed is not None
     assert opened is not None
+    refuse_loose(work, known, wide_m, default, opened, closed)
     return (closed, computed_length("grasp_width", closed.si("Length"), "as the jaws close"), opened)
