@@ -161,3 +161,17 @@ def test_a_wipe_stays_inside_its_area_with_its_whole_outline() -> None:
 )
 def test_what_cannot_be_done_is_refused(code: str, calls) -> None:
     assert refused(*calls) == code
+
+
+@pytest.mark.parametrize("center", [(0.15, 0.06), (0.04, 0.16), (-0.04, 0.06), (0.118, 0.06)])
+def test_an_element_that_is_not_on_its_screen_is_not_touched(center: tuple[float, float]) -> None:
+    profile, world = bench()
+    screen = profile.object("incubator_screen")
+    assert screen is not None
+    start, stop = screen.elements
+    changed = replace(screen, elements=(replace(start, center_m=center), stop))
+    others = tuple(changed if item is screen else item for item in profile.objects)
+    tap = plan(("tap", {"screen": obj("incubator_screen"), "element": "start", "arm": "left"}))
+    graph, problems = lower(tap, replace(profile, objects=others), world)
+    assert graph is None
+    assert [found.code for found in problems] == ["XEI0720"]

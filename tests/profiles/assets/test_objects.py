@@ -125,6 +125,16 @@ def test_the_computed_size_is_used_by_other_checks_of_the_profile(tmp_path):
     assert {found.code for found in load_profile(lab, None)[1]} == {"XEI0640"}
 
 
+def test_elements_are_held_against_the_face_of_a_computed_size(tmp_path):
+    lab = lab_with(
+        tmp_path,
+        "    shape: {mesh: {file: assets/cup.stl, units: mm, as: box}}\\n"
+        "    elements: {start: {center: [55 mm, 40 mm], size: [15 mm, 10 mm]}}",
+    )
+    (found,) = load_profile(lab, None)[1]
+    assert (found.code, found.label) == ("XEI0640", "47.5 mm .. 62.5 mm to the right, 35 mm .. 45 mm up")
+
+
 def test_the_world_says_what_a_size_was_computed_from(tmp_path):
     profile, _ = loaded(lab_with(tmp_path, "    shape: {mesh: {file: assets/cup.stl, units: mm}}"))
     world, _ = ground(profile)

@@ -12,7 +12,7 @@ from itertools import product
 
 from xei_lang.diagnostics import Label, did_you_mean
 from xei_lang.ir.families import Family, ToolPose, ToolTarget
-from xei_lang.ir.geometry import Pose, Quaternion, Vec3
+from xei_lang.ir.geometry import Box, Pose, Quaternion, Vec3
 from xei_lang.ir.skill_plan import ObjectRef
 from xei_lang.lower.hand import hand_of, tool_axes
 from xei_lang.lower.operations.base import Aim, Operation, Planned, Work
@@ -86,6 +86,16 @@ def _element(work: Work) -> tuple[LabObject, Element]:
             f"its elements are {', '.join(f'`{item}`' for item in names) or 'not stated'}",
             (Label(screen.span, "the screen is stated here"),),
             help=tuple(f"did you mean `{near}`?" for near in did_you_mean(name, names)[:1]),
+        )
+    _, width, height = screen.size_m
+    if not (isinstance(screen.shape, Box) and found.is_on(width, height)):
+        refuse(
+            "XEI0720",
+            f"`{name}` is not on the face of `{screen.name}`",
+            argument.span if argument is not None else work.span,
+            "a touch there would meet the air",
+            (Label(found.span, "the element is stated here"), Label(screen.span, "the screen here")),
+            help=("correct the element's `center` and `size`, or the screen's `shape`",),
         )
     return screen, found
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from xei_lang.diagnostics import Diagnostics, has_errors
 from xei_lang.profiles.checks.contradictions import check_contradictions
+from xei_lang.profiles.checks.elements import check_elements
 from xei_lang.profiles.checks.frames import check_frames
 from xei_lang.profiles.checks.geometry import check_geometry
 from xei_lang.profiles.checks.limits import check_limits
@@ -39,6 +40,7 @@ def check_profile(profile: Profile, trees: Trees) -> Diagnostics:
         *check_limits(profile, trees),
         *check_priors(profile),
         *check_geometry(profile, trees),
+        *check_elements(profile),
         *check_tips(profile),
         *check_threads(profile, trees),
     )

@@ -62,12 +62,25 @@ class Spot(Record):
 
 @record
 class Element(Record):
-    """An element of a touch screen: centre and size on the screen's plane, metres."""
+    """An element of a touch screen: centre and size on the screen's plane, metres, to the right and up from
+    the lower left corner of its face.
+    """
 
     name: str
     center_m: tuple[float, float]
     size_m: tuple[float, float]
     span: Span
+
+    @property
+    def spans_m(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """From where to where it is to the right, and up."""
+        (x, y), (width, height) = self.center_m, self.size_m
+        return (x - width / 2, x + width / 2), (y - height / 2, y + height / 2)
+
+    def is_on(self, width_m: float, height_m: float) -> bool:
+        """Whether all of it is on a face of this size, to a micrometre."""
+        sides = zip(self.spans_m, (width_m, height_m), strict=True)
+        return all(low >= -1e-6 and high <= edge + 1e-6 for (low, high), edge in sides)
 
 
 @record
