@@ -75,3 +75,26 @@ def test_a_lost_brace_is_told_once(text: str, line: int) -> None:
 )
 def test_a_lost_brace_beside_another_slip(text: str, lines: list[int]) -> None:
     assert [line for line, _ in told(text)] == lines
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "let d = a *",
+        "let d =",
+        "param n:",
+        "param n_int :",
+        "param :n Int",
+        "object :bottle movable & pourable = bottle_2",
+        "measure :od Float = read(device=reader)",
+    ],
+)
+@pytest.mark.parametrize(
+    "below", ["wait 1 s", "let a = b", "close: pick(object=a)", "pick(object=a, arm=left)", "param m: Int"]
+)
+@pytest.mark.parametrize("behind", ["wait 5 s", "wait wait 5 s"])
+def test_a_line_that_breaks_off_ends_before_the_next_step(line: str, below: str, behind: str) -> None:
+    if line.endswith(("*", "=")) and below.startswith("pick"):
+        return  # What stands below is the value.
+    found = told(f"protocol p {{\n  {line}\n  {below}\n  {behind}\n  home()\n}}\n")
+    assert [line for line, _ in found] == [2, 4][: 1 + (behind != "wait 5 s")]

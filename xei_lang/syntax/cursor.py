@@ -91,15 +91,17 @@ class Cursor:
         return self.done[length].opened if length < len(self.done) else self.opened
 
     def statement_start(self) -> int:
-        """How many tokens stand before the statement or definition that was begun."""
+        """How many tokens stand before the statement or definition that was begun, its label among it."""
         most = braces(self.opened)
         known, start, until = self._start
         if known != most or until > len(self.done):
             until, start = -1, 0
         for length in range(len(self.done), until, -1):
             stack = self.below(length)
-            if braces(self.opened_at(length)) <= most and any(
-                self.machine.shift(stack, kind) is not None for kind in (STATEMENT, ITEM)
+            if (
+                braces(self.opened_at(length)) <= most
+                and not (length and self.done[length - 1].token.text == ":")
+                and any(self.machine.shift(stack, kind) is not None for kind in (STATEMENT, ITEM))
             ):
                 start = length
                 break

@@ -26,6 +26,8 @@ _COSTS = {")": 1, "]": 1, ",": 1, ":": 1, "=": 1, "(": 2, "{": 2, "..": 2, "}": 
 _DELETE_CLOSING = 4
 """More than a name that is put in before it: without its end, an argument list goes on in the next line."""
 _WORD_COST, _NAME_COST, _OTHER_COST = 3, 3, 5
+_LINE_START = 3
+"""How much likelier it is that a line breaks off where the next one looks like the start of a step."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +70,8 @@ def find_repair(
         window = (*candidate.tokens, *tokens[begin : begin + LOOK])
         reached = machine.run(base, window, 0, len(window))[1]
         gain = reached - len(candidate.tokens) + (LOOK if reached == len(window) else 0)
-        if gain < min(_ENOUGH, len(tokens) - begin):
+        read = reached - 1 if candidate.at_break else gain
+        if read < min(_ENOUGH, len(tokens) - begin):
             continue
         rank = (gain, -candidate.cost)
         if best is None or rank > best:
@@ -98,12 +101,8 @@ def _candidates(
             "delete", 0, (), 1, _DELETE_CLOSING if wrong.text in (")", "]") and not twice else 2, wrong
         )
         yield from _replacements(machine, stack, (), wrong, 0)
-        following = tokens[at + 1]
-        if following.kind != END and following.text not in ("{", "}"):
-            yield Repair("swap", 0, _swapped(wrong, following), 2, 3, wrong)
-        if done and done[-1][0].text not in ("{", "}"):
-            yield Repair("swap", 1, _swapped(done[-1][0], wrong), 1, 4, wrong)
-    yield from _breaks(machine, text, done)
+        yield from _swaps(machine, text, done, tokens, at)
+    yield from _breaks(machine, text, done, wrong)
     for back in range(1, min(_BACK, len(done)) + 1):
         old, before = done[len(done) - back]
         if old.text in ("{", "}") or old.start == old.end:
@@ -114,17 +113,38 @@ def _candidates(
         yield from _replacements(machine, before, later, old, back)
 
 
-def _breaks(machine: Machine, text: str, done: Sequence[tuple[Token, Stack]]) -> Iterator[Repair]:
-    """A keyword at the start of a line that passed for a name: it is the line before that lacks something."""
+def _swaps(
+    machine: Machine, text: str, done: Sequence[tuple[Token, Stack]], tokens: Sequence[Token], at: int
+) -> Iterator[Repair]:
+    """Two tokens of a line in the wrong order; a word of the language that begins its line stays there."""
+    wrong, following = tokens[at], tokens[at + 1]
+    if following.kind != END and following.text not in ("{", "}") and not begins_line(tokens, at + 1, text):
+        yield Repair("swap", 0, _swapped(wrong, following), 2, 3, wrong)
+    if not done or done[-1][0].text in ("{", "}") or begins_line(tokens, at, text):
+        return
+    last = done[-1][0]
+    starts = len(done) > 1 and "\n" in text[done[-2][0].end : last.start]
+    if not (starts and last.text in machine.tables.words):
+        yield Repair("swap", 1, _swapped(last, wrong), 1, 4, wrong)
+
+
+def _breaks(
+    machine: Machine, text: str, done: Sequence[tuple[Token, Stack]], wrong: Token
+) -> Iterator[Repair]:
+    """A step at the start of a line that passed for more of the line before: that one lacks something."""
     for back in range(1, len(done)):
         old, before = done[len(done) - back]
-        if "\n" in text[done[len(done) - back - 1][0].end : old.start]:
-            if old.kind == WORD and old.text in machine.tables.words:
-                word = old._replace(kind=machine.tables.words[old.text])
-                later = (word, *(token for token, _ in done[len(done) - back + 1 :]))
-                for repair in _insertions(machine, before, later[1:], word, back, False):
-                    yield replace(repair, at_break=True, cost=repair.cost - back - 1)
+        if "\n" not in text[done[len(done) - back - 1][0].end : old.start]:
+            continue
+        if old.kind != WORD:
             return
+        keyword = machine.tables.words.get(old.text)
+        if keyword is not None or (back == 1 and wrong.text in ("(", ":")):
+            word = old._replace(kind=keyword or WORD)
+            later = tuple(token for token, _ in done[len(done) - back + 1 :])
+            for repair in _insertions(machine, before, later, word, back, False):
+                yield replace(repair, at_break=True, cost=repair.cost - back - _LINE_START)
+        return
 
 
 def _insertions(
