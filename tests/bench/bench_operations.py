@@ -59,7 +59,8 @@ class Case:
     def job(self, scene: Scene) -> Callable[[], Planned]:
         """The planner's run on this scene, with the layers of its parameters."""
         plan = next(item.plan for item in OPERATIONS if item.name == self.operation)
-        step = step_of(self.skill, {**self.args, "arm": "left"}, *self.known)
+        args = self.args if "hold" in self.args else {**self.args, "arm": "left"}
+        step = step_of(self.skill, args, *self.known)
         if self.held:
             scene = holding(self.about, scene, "right" if self.giver else "left")
         return lambda: plan(work_of(step, self.subject, self.about, scene))
@@ -81,6 +82,8 @@ def cases() -> list[Case]:
     poured: Args = {"source": source, "target": beaker, "volume": quantity(60, "mL")}
     fill = (Fact("volume", "beaker_3", quantity(180, "mL")), Fact("volume", "beaker_1", sample))
     low = (Fact("volume", "beaker_3", quantity(80, "mL")),)
+    bottle, lid = obj("bottle_2"), obj("bottle_2_cap")
+    twist: Args = {"object": bottle, "hold": "left", "twist": "right"}
     turn, swing = {"angle": quantity(180, "deg")}, {"amplitude": quantity(20, "deg")}
     return [
         *(
@@ -106,6 +109,9 @@ def cases() -> list[Case]:
         Case("take", "handover", {"object": pipette, "to": "left"}, pipette, "pipette_1", giver="right"),
         Case("invert", "invert", {"object": tube, **turn}, tube, "tube_1"),
         Case("shake", "shake", {"object": tube, **swing}, tube, "tube_1"),
+        Case("steady", "twist_open", twist, bottle, "bottle_2", held=False),
+        Case("cap", "twist_open", twist, lid, "bottle_2_cap", held=False),
+        Case("thread", "twist_open", twist, lid, "bottle_2_cap", held=False),
     ]  # fmt: skip
 
 

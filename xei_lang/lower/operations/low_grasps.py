@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 from xei_lang.diagnostics import Label
-from xei_lang.ir.families import ToolPose
-from xei_lang.ir.geometry import Box, Cylinder, Pose
+from xei_lang.ir.families import Members, Point, Turned
+from xei_lang.ir.geometry import Box, Cylinder, Pose, Vec3
 from xei_lang.lower.hand import drop_m, hand_of, tool_axes
 from xei_lang.lower.operations.base import Work
 from xei_lang.lower.operations.caps import Cap
@@ -20,29 +21,25 @@ _ASIDE_DEG = (0.0, 12.0, -12.0, 24.0, -24.0)
 _HALF_HAND_M = 0.031
 _HALF_JAW_M = 0.013
 _APART_M = 0.004
+_ORIGIN = (0.0, 0.0, 0.0)
 
 
-def low_grasps(work: Work, cap: Cap, T_base_stood: Pose, depth_m: float) -> tuple[ToolPose, ...]:
+def low_grasps(work: Work, cap: Cap, T_base_stood: Pose, depth_m: float) -> Members:
     """Hands low on the vessel: elevation x heading x height x roll. Refuses a vessel that has no room for
     both hands (XEI0704).
     """
     reach = reach_direction(work.profile, work.arm, T_base_stood)
     ahead = math.atan2(reach[1], reach[0]) - yaw_of(T_base_stood)
-    found: list[ToolPose] = []
     clear_m = work.profile.calibration.clearance_m + 0.001
     highest = _highest(work, cap, depth_m)
-    for elevation in _ELEVATIONS_DEG:
-        for turned in (True, False):
-            lowest = clear_m + drop_m(math.radians(elevation), turned)
-            for height in _between(lowest, highest):
-                for aside in _ASIDE_DEG:
-                    heading = ahead + math.radians(aside)
-                    level = (math.cos(heading), math.sin(heading), 0.0)
-                    x, y, z = tool_axes(level, math.radians(elevation), turned)
-                    words = f"{elevation:g} deg down, {aside:g} deg aside, {height * 1000:.1f} mm high"
-                    cost = 0.02 * elevation / 8.0 + 0.1 * abs(aside) / 24.0 + (0.0 if turned else 0.05)
-                    name = f"low on the body, {words}{', rolled' if turned else ''}"
-                    found.append(ToolPose(name, Pose.from_axes((0.0, 0.0, height), x, y, z), round(cost, 6)))
+    levels = {aside: _level(ahead + math.radians(aside)) for aside in _ASIDE_DEG}
+    found: list[tuple[float, Turned, Point]] = []
+    for tilt in _TILTS:
+        points = _points(clear_m + tilt.drop_m, highest, tilt.turned)
+        for way in tilt.ways if points else ():
+            axes = tool_axes(levels[way.aside_deg], tilt.elevation_rad, tilt.turned)
+            turned = (way.words, Pose.from_axes(_ORIGIN, *axes).quaternion)
+            found += [(way.cost, turned, point) for point in points]
     if not found:
         refuse(
             "XEI0704",
@@ -52,7 +49,57 @@ def low_grasps(work: Work, cap: Cap, T_base_stood: Pose, depth_m: float) -> tupl
             f" {mm(max(0.0, highest))} at most",
             (Label(cap.vessel.span, "its shape is stated here"),),
         )
-    return tuple(sorted(found, key=lambda member: (member.cost, member.name)))
+    found.sort(key=_cost_and_name)
+    return Members(found)
+
+
+@dataclass(frozen=True, slots=True)
+class _Way:
+    """A heading from the way between shoulder and vessel, its words, and what it costs."""
+
+    aside_deg: float
+    words: str
+    cost: float
+
+
+@dataclass(frozen=True, slots=True)
+class _Tilt:
+    """An elevation with a roll: how far the hand reaches below the grasp point (m), and the ways to come."""
+
+    elevation_rad: float
+    turned: bool
+    drop_m: float
+    ways: tuple[_Way, ...]
+
+
+def _tilt(elevation_deg: float, turned: bool) -> _Tilt:
+    ways = tuple(_way(elevation_deg, aside, turned) for aside in _ASIDE_DEG)
+    elevation = math.radians(elevation_deg)
+    return _Tilt(elevation, turned, drop_m(elevation, turned), ways)
+
+
+def _way(elevation_deg: float, aside_deg: float, turned: bool) -> _Way:
+    cost = 0.02 * elevation_deg / 8.0 + 0.1 * abs(aside_deg) / 24.0 + (0.0 if turned else 0.05)
+    words = f"low on the body, {elevation_deg:g} deg down, {aside_deg:g} deg aside"
+    return _Way(aside_deg, words, round(cost, 6))
+
+
+_TILTS = tuple(_tilt(elevation, turned) for elevation in _ELEVATIONS_DEG for turned in (True, False))
+
+
+def _level(heading_rad: float) -> Vec3:
+    return (math.cos(heading_rad), math.sin(heading_rad), 0.0)
+
+
+def _points(lowest: float, highest: float, turned: bool) -> list[Point]:
+    rolled = ", rolled" if turned else ""
+    return [
+        (f", {height * 1000:.1f} mm high{rolled}", (0.0, 0.0, height)) for height in _between(lowest, highest)
+    ]
+
+
+def _cost_and_name(row: tuple[float, Turned, Point]) -> tuple[float, str, str]:
+    return (row[0], row[1][0], row[2][0])
 
 
 def _highest(work: Work, cap: Cap, depth_m: float) -> float:

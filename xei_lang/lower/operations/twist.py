@@ -7,8 +7,9 @@ the jaws open and the hand turns back about the same axis, round the cap, which 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
-from xei_lang.ir.families import Family, ToolPose, ToolTarget
+from xei_lang.ir.families import Family, Members, ToolTarget, Turned
 from xei_lang.ir.geometry import Pose
 from xei_lang.ir.tool_paths import Turn
 from xei_lang.lower.hand import hand_of, tool_axes
@@ -70,10 +71,13 @@ def plan_cap(work: Work) -> Planned:
     )
 
 
-def cap_members(cap: Cap, depth_m: float) -> tuple[ToolPose, ...]:
+def cap_members(cap: Cap, depth_m: float) -> Members:
     """Hands over a cap: elevation x heading x roll, the grasp point `depth_m` under its top."""
-    found: list[ToolPose] = []
-    point = (0.0, 0.0, cap.known.size_m[2] - depth_m)
+    point = ("", (0.0, 0.0, cap.known.size_m[2] - depth_m))
+    return Members([(cost, turned, point) for cost, turned in _WAYS])
+
+
+def _ways() -> Iterator[tuple[float, Turned]]:
     for elevation in _ELEVATIONS_DEG:
         for k in range(_HEADINGS):
             azimuth = k * 360.0 / _HEADINGS
@@ -82,8 +86,12 @@ def cap_members(cap: Cap, depth_m: float) -> tuple[ToolPose, ...]:
                 x, y, z = tool_axes(level, math.radians(elevation), turned)
                 kind = "straight down" if elevation == 90.0 else f"{elevation:g} deg down"
                 name = f"on the cap, {kind}, azimuth {azimuth:g} deg{', rolled' if turned else ''}"
-                found.append(ToolPose(name, Pose.from_axes(point, x, y, z), _ELEVATION_COSTS[elevation]))
-    return tuple(sorted(found, key=lambda member: (member.cost, member.name)))
+                quaternion = Pose.from_axes((0.0, 0.0, 0.0), x, y, z).quaternion
+                yield _ELEVATION_COSTS[elevation], (name, quaternion)
+
+
+_WAYS = sorted(_ways())
+"""What each way to take a cap costs, its words and the tool's orientation in the cap's frame."""
 
 
 def plan_thread(work: Work) -> Planned:
@@ -141,6 +149,8 @@ CAP = Operation(
     ("cap_pregrasp", "cap_grasp", "cap_lift"),
     ("cap_width", "cap_open_width", "cap_depth"),
     plan_cap,
+    of="cap",
+    needs=("jaw_clearance", "cap_lift"),
 )
 THREAD = Operation(
     "thread",
@@ -149,4 +159,6 @@ THREAD = Operation(
     plan_thread,
     axes=("cap_axis",),
     fresh=True,
+    of="cap",
+    needs=("stroke", "cap_lift"),
 )
