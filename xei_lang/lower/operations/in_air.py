@@ -49,9 +49,10 @@ def _highest(work: Work, x: float, y: float, radius_m: float) -> float:
     T_base_world = T_world_base.inverse()
     up_x, up_y, up_z = T_world_base.rotate((0.0, 0.0, 1.0))
     foot_x, foot_y, foot_z = T_world_base.apply((x, y, 0.0))
+    find = work.profile.object
     near: list[tuple[float, float, Standing, LabObject]] = []
     for name, standing in work.scene.standing.items():
-        known = work.profile.object(name)
+        known = find(name)
         if known is None:
             continue
         px, py, pz = standing.T_world_object.position_m

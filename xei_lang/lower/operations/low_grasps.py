@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from operator import attrgetter, itemgetter
 
 from xei_lang.diagnostics import Label
 from xei_lang.ir.families import Members, Point, Turned
@@ -35,11 +36,16 @@ def low_grasps(work: Work, cap: Cap, T_base_stood: Pose, depth_m: float) -> Memb
     levels = {aside: _level(ahead + math.radians(aside)) for aside in _ASIDE_DEG}
     found: list[tuple[float, Turned, Point]] = []
     for tilt in _TILTS:
-        points = _points(clear_m + tilt.drop_m, highest, tilt.turned)
-        for way in tilt.ways if points else ():
-            axes = tool_axes(levels[way.aside_deg], tilt.elevation_rad, tilt.turned)
-            turned = (way.words, Pose.from_axes(_ORIGIN, *axes).quaternion)
-            found += [(way.cost, turned, point) for point in points]
+        rolls = [
+            (turned, _points(clear_m + tilt.drops_m[turned], highest, turned)) for turned in (False, True)
+        ]
+        for way in tilt.ways:
+            for turned, points in rolls:
+                if points:
+                    axes = tool_axes(levels[way.aside_deg], tilt.elevation_rad, turned)
+                    orientation = (way.words, Pose.from_axes(_ORIGIN, *axes).quaternion)
+                    cost = way.costs[turned]
+                    found += [(cost, orientation, point) for point in points]
     if not found:
         refuse(
             "XEI0704",
@@ -49,57 +55,56 @@ def low_grasps(work: Work, cap: Cap, T_base_stood: Pose, depth_m: float) -> Memb
             f" {mm(max(0.0, highest))} at most",
             (Label(cap.vessel.span, "its shape is stated here"),),
         )
-    found.sort(key=_cost_and_name)
+    # They were made in the order of their names, in which those of one cost stay.
+    found.sort(key=itemgetter(0))
     return Members(found)
 
 
 @dataclass(frozen=True, slots=True)
 class _Way:
-    """A heading from the way between shoulder and vessel, its words, and what it costs."""
+    """A heading from the way between shoulder and vessel, its words, and its costs unrolled and rolled."""
 
     aside_deg: float
     words: str
-    cost: float
+    costs: tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
 class _Tilt:
-    """An elevation with a roll: how far the hand reaches below the grasp point (m), and the ways to come."""
+    """An elevation: how far the hand reaches below the grasp point (m), unrolled and rolled, and the ways to
+    come in the order of their words.
+    """
 
     elevation_rad: float
-    turned: bool
-    drop_m: float
+    drops_m: tuple[float, float]
     ways: tuple[_Way, ...]
 
 
-def _tilt(elevation_deg: float, turned: bool) -> _Tilt:
-    ways = tuple(_way(elevation_deg, aside, turned) for aside in _ASIDE_DEG)
+def _tilt(elevation_deg: float) -> _Tilt:
     elevation = math.radians(elevation_deg)
-    return _Tilt(elevation, turned, drop_m(elevation, turned), ways)
+    ways = sorted((_way(elevation_deg, aside) for aside in _ASIDE_DEG), key=attrgetter("words"))
+    return _Tilt(elevation, (drop_m(elevation, False), drop_m(elevation, True)), tuple(ways))
 
 
-def _way(elevation_deg: float, aside_deg: float, turned: bool) -> _Way:
-    cost = 0.02 * elevation_deg / 8.0 + 0.1 * abs(aside_deg) / 24.0 + (0.0 if turned else 0.05)
+def _way(elevation_deg: float, aside_deg: float) -> _Way:
+    cost = 0.02 * elevation_deg / 8.0 + 0.1 * abs(aside_deg) / 24.0
     words = f"low on the body, {elevation_deg:g} deg down, {aside_deg:g} deg aside"
-    return _Way(aside_deg, words, round(cost, 6))
+    return _Way(aside_deg, words, (round(cost + 0.05, 6), round(cost, 6)))
 
 
-_TILTS = tuple(_tilt(elevation, turned) for elevation in _ELEVATIONS_DEG for turned in (True, False))
+_TILTS = tuple(sorted(map(_tilt, _ELEVATIONS_DEG), key=lambda tilt: tilt.ways[0].words))
 
 
 def _level(heading_rad: float) -> Vec3:
     return (math.cos(heading_rad), math.sin(heading_rad), 0.0)
 
 
-def _points(lowest: float, highest: float, turned: bool) -> list[Point]:
-    rolled = ", rolled" if turned else ""
-    return [
-        (f", {height * 1000:.1f} mm high{rolled}", (0.0, 0.0, height)) for height in _between(lowest, highest)
-    ]
-
-
-def _cost_and_name(row: tuple[float, Turned, Point]) -> tuple[float, str, str]:
-    return (row[0], row[1][0], row[2][0])
+def _points(lowest: float, highest: float, rolled: bool) -> list[Point]:
+    """Grasp points on the axis, in the order of their words."""
+    words = "mm high, rolled" if rolled else "mm high"
+    return sorted(
+        (f", {height * 1000:.1f} {words}", (0.0, 0.0, height)) for height in _between(lowest, highest)
+    )
 
 
 def _highest(work: Work, cap: Cap, depth_m: float) -> float:
