@@ -47,7 +47,12 @@ from tests.motion.verify.faults_said import (
     too_early,
     wrong_place,
 )
-from tests.motion.verify.faults_touch import contact_not_allowed, object_in_path, path_into_body
+from tests.motion.verify.faults_touch import (
+    contact_not_allowed,
+    object_in_path,
+    path_into_body,
+    thinner_than_the_grip,
+)
 from tests.motion.verify.maker import Arm
 from xei_lang.ir.goals import MotionGoalGraph
 from xei_lang.ir.timed import TimedPlan
@@ -105,4 +110,5 @@ MAKERS: tuple[Callable[[Bench], Fault | None], ...] = (
     rider_left_behind,
     loose_rider,
     object_in_riders_path,
+    thinner_than_the_grip,
 )

@@ -11,6 +11,7 @@ import pinocchio as pin
 from tests.motion.verify.fault_bench import Bench, Fault, base_of, carries, free_objects
 from tests.motion.verify.fault_paths import bump, middle_time, resampled
 from xei_lang.ir.geometry import Box, Cylinder, Pose, Sphere
+from xei_lang.ir.goals import Attach
 
 
 def object_in_path(bench: Bench) -> Fault | None:
@@ -113,6 +114,24 @@ def contact_not_allowed(bench: Bench) -> Fault | None:
                 "contact not allowed", "collision", bench.with_goal(replace(goal, allowed_contacts=kept))
             )
     return None
+
+
+def thinner_than_the_grip(bench: Bench) -> Fault | None:
+    """What a hand takes is round, and 6 to 12 mm thinner than the jaws closed: each stays 3 to 6 mm off."""
+    taken = sorted({goal.action.object for goal in bench.graph.goals if isinstance(goal.action, Attach)})
+    if not taken:
+        return None
+    name, less = bench.random.choice(taken), bench.random.uniform(0.003, 0.006)
+
+    def thinner(part):
+        assert isinstance(part.shape, Cylinder)
+        return replace(part, shape=replace(part.shape, radius_m=part.shape.radius_m - less))
+
+    objects = tuple(
+        replace(item, geometry=tuple(map(thinner, item.geometry))) if item.name == name else item
+        for item in bench.world.objects
+    )
+    return bench.fault("thinner than the grip", "grip", world=replace(bench.world, objects=objects))
 
 
 def _geometry(bench: Bench):

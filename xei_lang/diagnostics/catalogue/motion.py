@@ -66,4 +66,5 @@ ENTRIES = {
     "XEI0868": Entry("a tool leaves the path that is stated for it"),
     "XEI0869": Entry("a tool is faster than it may be"),
     "XEI0870": Entry("a body meets the wall or the bottom of what it goes into"),
+    "XEI0871": Entry("jaws do not touch what they take"),
 }

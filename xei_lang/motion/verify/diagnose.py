@@ -31,6 +31,7 @@ CODES: Mapping[FindingKind, str] = {
     "tool_path": "XEI0868",
     "tool_speed": "XEI0869",
     "opening": "XEI0870",
+    "grip": "XEI0871",
 }
 
 

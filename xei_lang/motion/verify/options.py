@@ -34,7 +34,8 @@ class VerifyOptions:
 
     `position_tolerance` (rad, m) forgives rounding; `joint_tolerance` and `opening_tolerance_m` say when a
     joint target and a gap are met; `held_*` and `placed_*` bound how far an object's pose may be from what
-    the plan says of it (two tool tolerances: that of the grasp and that of the place). What goes into an
+    the plan says of it (two tool tolerances: that of the grasp and that of the place). Jaws are at
+    most `grip_m` from what they take, as wide as a gap may be off. What goes into an
     opening keeps `opening_margin_m` from its wall, and may lie on its mouth and its bottom within
     `opening_skin_m`. With `upright_tilt_rad`, goals that keep upright are held to it.
     """
@@ -63,6 +64,7 @@ class VerifyOptions:
     sample_velocity: float = 1e-3
     sample_acceleration: float = 2e-2
     time_tolerance_s: float = 1e-6
+    grip_m: float = 1e-3
     contact_m: float = 0.0
     opening_margin_m: float = 1e-4
     opening_skin_m: float = 2e-4

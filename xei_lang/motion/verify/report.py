@@ -29,6 +29,7 @@ FindingKind = Literal[
     "opening",
     "attachment",
     "placement",
+    "grip",
 ]
 
 

@@ -13,6 +13,7 @@ from xei_lang.ir.verify_timed import timed_problems
 from xei_lang.ir.world import World
 from xei_lang.motion.verify.clearance import check_clearance
 from xei_lang.motion.verify.context import Context
+from xei_lang.motion.verify.grips import check_grips
 from xei_lang.motion.verify.hands import check_hands
 from xei_lang.motion.verify.limits import check_jumps, check_limits, effective_limits
 from xei_lang.motion.verify.options import RobotDescription, VerifyOptions
@@ -58,6 +59,7 @@ def verify_timed(
         check(context)
     check_runs(context)
     check_hands(context)
+    check_grips(context)
     check_torque(context)
     distances = check_clearance(context)
     checked = _counted(plan, timeline, distances)
