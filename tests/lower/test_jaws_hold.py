@@ -1,4 +1,4 @@
-"""Jaws that would not pass an object, or close without touching it, are refused at the number that says so."""
+"""Jaws that would not pass an object, or close without touching it, are refused at the number that says it."""
 
 from __future__ import annotations
 

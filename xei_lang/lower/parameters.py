@@ -14,6 +14,7 @@ from xei_lang.diagnostics import Span
 from xei_lang.ir.goals import Parameter
 from xei_lang.ir.skill_plan import Step, Value
 from xei_lang.lower.refusal import refuse
+from xei_lang.profiles.grasp_words import parameter_of
 from xei_lang.profiles.model import LabObject, OperationDefault, SkillSpec
 from xei_lang.quantity import TYPE_DIMENSIONS, Dimension, Quantity
 from xei_lang.quantity.dimension import LENGTH, NUMBER
@@ -24,8 +25,6 @@ Source = Literal["skill", "computed", "usage_profile", "call"]
 _DIMENSIONS: Mapping[str, tuple[Dimension, ...]] = {**TYPE_DIMENSIONS, "Fraction": (NUMBER,)}
 ROUNDING_M = 1e-6
 """What a computed length may be off by, so that comparisons with a limit leave this much room."""
-
-_USAGE_NAMES = {"width": "grasp_width"}
 
 
 @record
@@ -86,13 +85,13 @@ def layers_of(step: Step, spec: SkillSpec, subject: LabObject | None) -> Layers:
     usage = subject.grasp if subject else ()
     return Layers(
         {item.name: _of_profile(item, item.name, "skill") for item in spec.parameters},
-        {name: _of_profile(item, name, "usage_profile") for item in usage if (name := _usage_name(item))},
+        {
+            name: _of_profile(item, name, "usage_profile")
+            for item in usage
+            if (name := parameter_of(item.name))
+        },
         _of_call(step),
     )
-
-
-def _usage_name(item: OperationDefault) -> str:
-    return _USAGE_NAMES.get(item.name, item.name)
 
 
 def _of_profile(item: OperationDefault, name: str, source: Source) -> Setting:

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from xei_lang.diagnostics import Diagnostic, Label, Span
 from xei_lang.profiles.checks.unknown import unknown
-from xei_lang.profiles.model import LabObject, Profile
+from xei_lang.profiles.grasp_words import ALIASES, CHOICES, parameter_of
+from xei_lang.profiles.model import LabObject, OperationDefault, Profile
 from xei_lang.profiles.trees import Trees
 
 OPERATION_PARAMETERS = (
@@ -55,8 +56,6 @@ OPERATION_PARAMETERS = (
 )
 """What the planner of operations computes; a skill bank may add its own under `parameters`."""
 
-_VALUES = ("true", "false", "nothing", "either")
-
 
 def check_names(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
     """Roles, skills, states and operation parameters that objects name; names and aliases that are not
@@ -82,9 +81,7 @@ def check_names(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
                 if role not in roles:
                     span = trees.of_object(item, "spots", spot.name, "accepts", index)
                     yield unknown("a role of any object", role, roles, span)
-        for default in item.grasp:
-            if default.name not in parameters:
-                yield unknown("an operation parameter", default.name, sorted(parameters), default.span)
+        yield from _grasp(item, {*parameters, *ALIASES, *CHOICES})
         yield from _states(item, trees)
     yield from _hazards(profile, trees)
 
@@ -92,8 +89,6 @@ def check_names(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
 def _unique(profile: Profile) -> Iterator[Diagnostic]:
     seen: dict[str, Span] = {}
     for item in profile.objects:
-        if item.name in (*_VALUES, *profile.bank.arms):
-            yield _a_word(item)
         for name in (item.name, *item.aliases):
             if name in seen:
                 yield _twice(name, item.span, seen[name], "an object")
@@ -113,17 +108,6 @@ def _unique(profile: Profile) -> Iterator[Diagnostic]:
         tags.setdefault(tag.id, tag.span)
 
 
-def _a_word(item: LabObject) -> Diagnostic:
-    return Diagnostic(
-        "XEI0621",
-        f"`{item.name}` names two things",
-        item.span,
-        label="names an object here",
-        notes=(f"`{item.name}` is a value of the language, which a protocol means wherever it says so",),
-        help=("rename the object",),
-    )
-
-
 def _twice(name: str, span: Span, first: Span, what: str) -> Diagnostic:
     return Diagnostic(
         "XEI0621",
@@ -134,6 +118,26 @@ def _twice(name: str, span: Span, first: Span, what: str) -> Diagnostic:
         notes=("names and aliases must be unique, because protocols and requests choose by them",),
         help=("rename one of the two",),
     )
+
+
+def _grasp(item: LabObject, known: set[str]) -> Iterator[Diagnostic]:
+    """Keys under `grasp:` that mean nothing, or what another one means."""
+    seen: dict[str, OperationDefault] = {}
+    for default in item.grasp:
+        meant = parameter_of(default.name)
+        first = seen.setdefault(meant, default)
+        if default.name not in known:
+            yield unknown("an operation parameter", default.name, sorted(known), default.span)
+        elif first is not default:
+            short = next(name for name in (first.name, default.name) if name != meant)
+            yield Diagnostic(
+                "XEI0606",
+                f"`{meant}` is stated twice: `{short}` is short for it",
+                default.span,
+                label=f"`{default.name}` here",
+                labels=(Label(first.span, f"and `{first.name}` here"),),
+                help=("leave one of the two out",),
+            )
 
 
 def _states(item: LabObject, trees: Trees) -> Iterator[Diagnostic]:
