@@ -21,6 +21,7 @@ from xei_lang.profiles.checks.template_order import check_template_order
 from xei_lang.profiles.checks.threads import check_threads
 from xei_lang.profiles.checks.tips import check_tips
 from xei_lang.profiles.checks.unused import check_unused
+from xei_lang.profiles.checks.words import check_words
 from xei_lang.profiles.model import Profile
 from xei_lang.profiles.trees import Trees
 
@@ -29,6 +30,7 @@ def check_profile(profile: Profile, trees: Trees) -> Diagnostics:
     """All cross checks, in a fixed order; whether objects overlap only where all have a place."""
     found = (
         *check_names(profile, trees),
+        *check_words(profile, trees),
         *check_skills(profile, trees),
         *check_quantities(profile, trees),
         *check_owners(profile, trees),

@@ -43,8 +43,30 @@ def check_frames(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
         if link not in profile.robot.links:
             span = trees.calibration.span_of("robot_frames", name)
             yield unknown("a link of the robot", link, profile.robot.links, span)
+    yield from _named_like_objects(profile, trees.calibration)
     yield from _stations(profile, tuple(frames), trees.calibration)
     yield from _sensors((*anchors, *frames), tuple(item.name for item in profile.objects), trees.calibration)
+
+
+def _named_like_objects(profile: Profile, tree: Node) -> Iterator[Diagnostic]:
+    """Frames with the name of an object that does not stand in them: who asks for one would get the other."""
+    named = {name: item for item in profile.objects for name in (item.name, *item.aliases)}
+    spans = {frame.name: frame.span for frame in profile.calibration.frames}
+    for name, _ in profile.calibration.robot_frames:
+        spans.setdefault(name, tree.key_span("robot_frames", name))
+    for name, span in spans.items():
+        item = named.get(name)
+        if item is None or (item.name == name and item.prior is not None and item.prior.frame == name):
+            continue
+        yield Diagnostic(
+            "XEI0621",
+            f"`{name}` names two things",
+            span,
+            label="names a frame here",
+            labels=(Label(item.span, "and an object here"),),
+            notes=("only an object whose prior stands in a frame, as a table, may share its name",),
+            help=("rename one of the two",),
+        )
 
 
 def _circle(frame: CalibratedFrame, frames: dict[str, CalibratedFrame]) -> Iterator[Diagnostic]:
