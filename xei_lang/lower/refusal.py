@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Generator
+from contextlib import contextmanager
+from dataclasses import replace
 from typing import NoReturn
 
 from xei_lang.diagnostics import Diagnostic, Label, Span
@@ -13,6 +16,17 @@ class Refusal(Exception):  # noqa: N818 (no error: how a step is given up)
     def __init__(self, diagnostic: Diagnostic) -> None:
         super().__init__(diagnostic.message)
         self.diagnostic = diagnostic
+
+
+@contextmanager
+def told_at(span: Span) -> Generator[None]:
+    """A refusal inside that knows no place of its own is told here."""
+    try:
+        yield
+    except Refusal as refusal:
+        if refusal.diagnostic.span is None:
+            refusal.diagnostic = replace(refusal.diagnostic, span=span)
+        raise
 
 
 def refuse(

@@ -82,7 +82,7 @@ class Task:
         """The operation's plan on an argument, made at its first mention in the template."""
         key = (operation.name, argument, arm)
         if key not in self.plans or operation.fresh:
-            work = self._work(argument, arm, line)
+            work = self._work(operation, argument, arm, line)
             refuse_fastened(operation, work)
             refuse_set_on_thread(operation, work)
             planned = operation.plan(work)
@@ -93,19 +93,27 @@ class Task:
                 self.families.append(made)
         return self.plans[key]
 
-    def _work(self, argument: str, arm: Side, line: TemplateStep) -> Work:
+    def _work(self, operation: Operation, argument: str, arm: Side, line: TemplateStep) -> Work:
         subject = self.argument(argument)
         if not isinstance(subject, (ObjectRef, PlaceRef)):
             refuse_template(
                 line, f"`{argument}` has no points of an operation", "expected an object or a Place"
             )
+        found = "Place" if isinstance(subject, PlaceRef) else "cap" if "." in argument else "object"
+        if found != operation.of:
+            wanted = {"object": "an object", "cap": "an object's `cap`", "Place": "a Place"}[operation.of]
+            refuse_template(
+                line, f"`{argument}` is nothing that `{operation.name}` works on", f"expected {wanted}"
+            )
         cap = cap_meant(self.profile, self.step, argument)
         name = subject.name if isinstance(subject, ObjectRef) else cap or self.object
+        layers = self.layers(name)
+        _refuse_ungiven(operation, layers, self.spec, line)
         return Work(
             self.profile,
             self.scene,
             self.step,
-            self.layers(name),
+            layers,
             subject,
             self.span_of(argument),
             arm,
@@ -163,6 +171,18 @@ class Task:
         return found or refuse_template(
             line, f"`{name}` is not a station", "expected an argument of type Station"
         )
+
+
+def _refuse_ungiven(operation: Operation, layers: Layers, spec: SkillSpec, line: TemplateStep) -> None:
+    """Give up a step whose operation needs what neither its call nor the profile gives."""
+    asked = [(name, "as an argument") for name in operation.called if name not in layers.call]
+    asked += [
+        (name, "as an argument or under `parameters`")
+        for name in operation.needs
+        if layers.merge(name, None) is None
+    ]
+    for name, where in asked:
+        refuse_template(line, f"`{operation.name}` in `{spec.name}` needs `{name}`", f"expected it {where}")
 
 
 def refuse_template(line: TemplateStep, message: str, label: str, *notes: str) -> NoReturn:

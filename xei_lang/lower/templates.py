@@ -13,7 +13,7 @@ from xei_lang.diagnostics import did_you_mean
 from xei_lang.ir.goals import GoalKind
 from xei_lang.lower import build_arm, build_other
 from xei_lang.lower.draft import Builder, Draft
-from xei_lang.lower.refusal import refuse
+from xei_lang.lower.refusal import refuse, told_at
 from xei_lang.lower.task import Task, refuse_template
 from xei_lang.lower.threads import refuse_half_turned
 from xei_lang.profiles.model import MOST_TIMES, Repeat, TemplateStep
@@ -48,7 +48,8 @@ def expand(task: Task, lines: tuple[TemplateStep, ...] | None = None) -> tuple[D
     for repeat, group in groupby(task.spec.template if lines is None else lines, lambda line: line.repeat):
         block = tuple(group)
         for line in block * (1 if repeat is None else times(task, repeat, block[0])):
-            built = _builder(line).build(task, line)
+            with told_at(line.span):
+                built = _builder(line).build(task, line)
             drafts.extend(built if isinstance(built, tuple) else (built,))
             task.scene = drafts[-1].scene if drafts else task.scene
     refuse_half_turned(task, before, drafts)
@@ -64,7 +65,8 @@ def times(task: Task, repeat: Repeat, line: TemplateStep) -> int:
         return repeat.times
     arms = tuple(task.arms.values())
     setting = task.setting(repeat.times, arms[0].arm if len(arms) == 1 else None, line)
-    value = setting.si("Fraction")
+    with told_at(repeat.span):
+        value = setting.si("Fraction")
     least = 0 if setting.source == "computed" else 1
     if value != round(value) or not least <= value <= MOST_TIMES:
         refuse(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import field
+from typing import Literal
 
 from xei_lang.diagnostics import Span
 from xei_lang.ir.families import Family, ToolTarget
@@ -99,6 +100,9 @@ class Planned(Record):
 class Operation(Record):
     """A deterministic planner with the points and parameters that templates may name of it, and the axes and
     areas of its stated paths. A `fresh` one plans anew, from the scene by then, wherever it is named.
+
+    `of` is what it works on: an object, an object's cap, or a place. It computes none of what it `needs`,
+    which the call, the object or the skill's `parameters` give, nor of what only a call gives (`called`).
     """
 
     name: str
@@ -108,3 +112,6 @@ class Operation(Record):
     axes: tuple[str, ...] = ()
     areas: tuple[str, ...] = ()
     fresh: bool = False
+    of: Literal["object", "cap", "Place"] = "object"
+    needs: tuple[str, ...] = ()
+    called: tuple[str, ...] = ()

@@ -142,5 +142,17 @@ def _time(work: Work, name: str) -> Setting:
 
 
 _SHARED = ("tip_depth", "rim_clearance", "tool_point")
-ASPIRATE = Operation("aspirate", ("aspirate_above", "aspirate"), (*_SHARED, "aspirate_time"), plan_aspirate)
-DISPENSE = Operation("dispense", ("dispense_above", "dispense"), (*_SHARED, "dispense_time"), plan_dispense)
+ASPIRATE = Operation(
+    "aspirate",
+    ("aspirate_above", "aspirate"),
+    (*_SHARED, "aspirate_time"),
+    plan_aspirate,
+    called=("volume",),
+)
+DISPENSE = Operation(
+    "dispense",
+    ("dispense_above", "dispense"),
+    (*_SHARED, "dispense_time"),
+    plan_dispense,
+    called=("volume",),
+)

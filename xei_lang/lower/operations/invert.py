@@ -109,11 +109,19 @@ def _closed(work: Work) -> tuple[Held, LabObject]:
 
 _AIR = ("air_ahead", "air_clearance")
 
-INVERT = Operation("invert", ("invert_above", "inverted"), _AIR, plan_invert, axes=("invert_axis",))
+INVERT = Operation(
+    "invert",
+    ("invert_above", "inverted"),
+    _AIR,
+    plan_invert,
+    axes=("invert_axis",),
+    needs=("angle",),
+)
 SHAKE = Operation(
     "shake",
     ("shake_above", "shake_left", "shake_right"),
     (*_AIR, "shake_swing"),
     plan_shake,
     axes=("shake_axis",),
+    needs=("amplitude",),
 )

@@ -191,4 +191,5 @@ PLACE = Operation(
     ("above", "place", "retreat"),
     ("approach_height", "insertion_depth", "standoff", "jaw_clearance", "release_width"),
     plan,
+    of="Place",
 )

@@ -154,4 +154,5 @@ STEADY = Operation(
     ("hold_pregrasp", "hold_grasp", "hold_lift", "hold_air", "hold_above", "hold_place", "hold_retreat"),
     ("hold_width", "hold_open_width", "twist_slide"),
     plan,
+    needs=("lift", "approach_height", "jaw_clearance"),
 )

@@ -101,8 +101,15 @@ def _element(work: Work) -> tuple[LabObject, Element]:
 
 
 def _end(work: Work, screen: LabObject, start: tuple[float, float]) -> tuple[float, float]:
-    direction = _DIRECTIONS[str(work.step.arg("direction"))]
-    length = work.layers.call["distance"]
+    word, length = work.layers.call["direction"], work.layers.call["distance"]
+    direction = _DIRECTIONS.get(word.text)
+    if direction is None:
+        refuse(
+            "XEI0720",
+            f"`{word.text}` is no direction along a screen",
+            word.span or work.span,
+            f"expected {', '.join(f'`{item}`' for item in _DIRECTIONS)}",
+        )
     way = length.si("Length")
     end = (start[0] + way * direction[0], start[1] + way * direction[1])
     _, width, height = screen.size_m
@@ -154,7 +161,11 @@ def _ways() -> Iterator[tuple[float, str, Vec3, Quaternion]]:
 
 _WAYS = sorted(_ways())
 
-TAP = Operation("tap", ("tap_above", "tap"), ("tap_standoff",), plan_tap)
+TAP = Operation("tap", ("tap_above", "tap"), ("tap_standoff",), plan_tap, called=("element",))
 SWIPE = Operation(
-    "swipe", ("swipe_above", "swipe_start", "swipe_end", "swipe_away"), ("swipe_standoff",), plan_swipe
+    "swipe",
+    ("swipe_above", "swipe_start", "swipe_end", "swipe_away"),
+    ("swipe_standoff",),
+    plan_swipe,
+    called=("element", "direction", "distance"),
 )

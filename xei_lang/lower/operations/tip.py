@@ -143,5 +143,6 @@ TIP = Operation(
     ("tip_above", "tip_on"),
     ("press_force", "alignment_tolerance", "tip_height", "tool_point"),
     plan_tip,
+    of="Place",
 )
 EJECT = Operation("eject", ("eject",), ("eject_height",), plan_eject)

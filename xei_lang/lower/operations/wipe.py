@@ -169,4 +169,6 @@ WIPE = Operation(
     ("lane_pitch", "wipe_height"),
     plan,
     areas=("wipe_area",),
+    of="Place",
+    called=("length", "width"),
 )
