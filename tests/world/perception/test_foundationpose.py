@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -20,6 +21,7 @@ from xei_lang.world.perception.service.foundationpose import FoundationPoseBacke
 from xei_lang.world.perception.service.handle import Desk
 from xei_lang.world.perception.service.mock import MockBackend
 from xei_lang.world.perception.service_fault import ServiceFault
+from xei_lang.world.perception.wire import response_model
 from xei_lang.world.sources.identity import objects_sha256
 
 mujoco_bench = pytest.importorskip("tests.world.perception.mujoco_bench")
@@ -83,3 +85,29 @@ def test_what_is_wrong_behind_the_adapter_is_passed_on():
     assert isinstance(found, ServiceFault)
     assert found.reason == "failed"
     assert "not of its form" in found.message
+
+
+def test_a_shape_that_the_other_process_reads_in_another_unit_is_not_passed_on_as_ours():
+    request = small_request("bottle_1")
+    mask = encode_mask(np.ones((48, 64), dtype=bool))
+    request = replace(request, queries=(replace(request.queries[0], mask_png=mask),))
+    with served(Desk(lab(), MockBackend(truth()))) as upstream:
+        with served(adapter(upstream)) as url:
+            right = PoseClient(url, limits=QUICK).poses(request)
+        other = PoseClient(upstream).poses(request)
+    assert not isinstance(right, ServiceFault) and not isinstance(other, ServiceFault)
+    assert [item.status for item in right.objects] == ["ok"]
+    said = response_model(other).model_dump(mode="json")
+    said["objects"][0]["mesh"]["units"] = "mm"
+    body = json.dumps(said).encode()
+
+    def in_mm(handler, rogue: Rogue) -> None:
+        handler.send_response(200)
+        handler.send_header("Content-Length", str(len(body)))
+        handler.end_headers()
+        handler.wfile.write(body)
+
+    with misbehaving(in_mm) as rogue, served(adapter(rogue.url)) as url:
+        wrong = PoseClient(url, limits=QUICK).poses(request)
+    assert not isinstance(wrong, ServiceFault)
+    assert [(item.status, item.T_output_object) for item in wrong.objects] == [("error", None)]

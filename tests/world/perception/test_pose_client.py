@@ -203,16 +203,83 @@ def test_a_service_of_another_registry_is_not_asked_for_poses():
     assert (found.reason, found.diagnostic().code) == ("other_registry", "XEI0696")
 
 
+def entry_with(**changes) -> dict:
+    return {**json.loads(answer())["objects"][0], **changes}
+
+
+STRAY = [
+    ({"units": "mm"}, "says `units` as `mm`, which the contract does not have",
+     "all lengths are in metres, and angles in a rotation matrix: send these, and no `units`"),
+    ({"model_versoin": "2"}, "says `model_versoin` as `2`, which", "did you mean `model_version`?"),
+    ({"a\u001b[31m`" * 99: {"x": 1}}, "says `a [31m a [31m ", "leave `a [31m "),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("changes", "words", "help"), STRAY)
+def test_a_key_that_the_contract_does_not_have_is_named_with_the_mend(changes, words, help):
+    given = answer(**changes)
+    with misbehaving(lambda handler, rogue: reply(handler, given)) as rogue:
+        found = asked(rogue.url)
+    assert isinstance(found, ServiceFault)
+    assert (found.reason, found.diagnostic().code) == ("garbage", "XEI0693")
+    assert f"to POST /v1/poses {words}" in found.message
+    assert found.help.startswith(help)
+    assert found.message.isprintable() and len(found.message) < 400
+
+
+@pytest.mark.parametrize(
+    ("key", "where", "help"),
+    [
+        ("Units", "objects[0].Units", "all lengths are in metres"),
+        ("confidense", "objects[0].confidense", "did you mean `confidence`?"),
+        ("colour", "objects[0].colour", "leave `colour` out"),
+    ],
+)
+def test_so_is_one_of_an_object_and_its_place(key, where, help):
+    entry = entry_with(**{key: "mm"})
+    # A key that was misspelt is missing as well; what is there tells more.
+    entry.pop("confidence" if key == "confidense" else "none", None)
+    given = answer(objects=[entry])
+    with misbehaving(lambda handler, rogue: reply(handler, given)) as rogue:
+        found = asked(rogue.url)
+    assert isinstance(found, ServiceFault)
+    assert f"says `{key}` as `mm` (`{where}`), which the contract does not have" in found.message
+    assert found.help.startswith(help)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"units": "mm"}, "is for its shape in `mm`, and the registry has it in `m`"),
+        ({"size_m": [80.0, 80.0, 90.0]}, "is for a shape of 90000 mm at most, and the registry has one of "),
+        ({"size_m": [0.0, 0.0, 0.0]}, "is for a shape of 0 mm at most"),
+    ],
+)
+def test_a_shape_that_was_read_in_another_unit_is_told_before_any_pixel_is_looked_at(changes, words):
+    entry = entry_with()
+    given = answer(objects=[{**entry, "mesh": {**entry["mesh"], **changes}}])
+    with misbehaving(healthy_with(given)) as rogue:
+        found = observe(PoseClient(rogue.url), lab(), small_request("bottle_1"), now_ns=STAMP_NS)
+    assert isinstance(found, Seen)
+    ((name, reason, message),) = [(item.name, item.reason, item.message) for item in found.refused]
+    assert (name, reason) == ("bottle_1", "other_units")
+    assert f"the pose of `bottle_1` {words}" in message
+    assert found.observations.items == ()
+    assert [item.code for item in found.diagnostics] == ["XEI0697"]
+
+
+def healthy_with(given: bytes):
+    """A service of this lab's registry that answers each request for poses so."""
+    health = {"status": "ready", "backend": "x", "registry_sha256": registry_of(lab()).sha256, "detail": ""}
+    return lambda handler, rogue: reply(
+        handler, json.dumps(health).encode() if handler.path == "/health" else given
+    )
+
+
 def test_an_answer_of_another_shape_is_refused_even_where_the_registry_was_right():
     mesh = {"sha256": "0" * 64, "units": "m", "size_m": [0.1, 0.1, 0.1]}
-    entry = {**json.loads(answer())["objects"][0], "mesh": mesh}
-    health = {"status": "ready", "backend": "x", "registry_sha256": registry_of(lab()).sha256, "detail": ""}
-    given = answer(objects=[entry])
-
-    def behaviour(handler, rogue):
-        reply(handler, json.dumps(health).encode() if handler.path == "/health" else given)
-
-    with misbehaving(behaviour) as rogue:
+    given = answer(objects=[entry_with(mesh=mesh)])
+    with misbehaving(healthy_with(given)) as rogue:
         found = observe(PoseClient(rogue.url), lab(), small_request("bottle_1"), now_ns=STAMP_NS)
     assert isinstance(found, Seen)
     assert [(item.name, item.reason) for item in found.refused] == [("bottle_1", "other_mesh")]

@@ -102,7 +102,8 @@ def accept(
         return _refused(item, "other_frame", said, "mend the service: it does not keep to the contract")
     pose = pose_of_matrix(item.T_output_object)
     if isinstance(pose, str):
-        return _refused(item, "not_rigid", f"is no pose: {pose}", "mend the service")
+        return _refused(item, "not_rigid", f"is no pose: {pose}",
+                        "mend the service: a pose is a rotation and metres, 4 x 4 by rows")  # fmt: skip
     if not _reaches(shape, evidence.T_workspace_output @ pose, evidence.workspace_m):
         return _refused(item, "outside_workspace", f"lies outside of the workspace, at {_text(pose)}",
                         "look whether the camera stands right; if so, bring the object nearer")  # fmt: skip

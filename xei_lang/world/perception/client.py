@@ -104,7 +104,7 @@ class PoseClient:
         try:
             return form.model_validate_json(reply.body)
         except ValidationError as error:
-            return garbage(self.url, method, path, error)
+            return garbage(self.url, method, path, form, error)
 
     def _call(self, method: str, path: str, body: bytes | None) -> Reply | ServiceFault:
         ends = time.monotonic() + self.limits.call_s

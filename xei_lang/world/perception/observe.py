@@ -16,6 +16,7 @@ from xei_lang.world.perception.acceptance import Accepted, Criteria, Evidence, a
 from xei_lang.world.perception.cameras import camera_at
 from xei_lang.world.perception.client import PoseClient
 from xei_lang.world.perception.optics import Optics, matrix_of
+from xei_lang.world.perception.other_shape import other_shape
 from xei_lang.world.perception.pictures import depth_image, mask_image
 from xei_lang.world.perception.pose_request import (
     Matrix,
@@ -96,12 +97,13 @@ def judge(
     kept: list[Observation] = []
     late = stale(answer.stamp_ns, now_ns, criteria)
     asked = {query.object_id: query for query in request.queries}
+    registry = registry_of(profile)
     for item in answer.objects:
         query = asked.pop(item.name, None)
         lab_object = profile.object(item.name)
         doubt = None if query and lab_object else _unasked(item)
-        if query and lab_object and item.mesh.sha256 != query.mesh_sha256:
-            doubt = _other_mesh(item)
+        if query and lab_object:
+            doubt = other_shape(item, query, registry.find(item.name))
         if doubt is None and late is not None and item.status == "ok":
             doubt = PoseRefused(item.name, late[0], f"the pose of `{item.name}` {late[1]}",
                                 "ask again with a new picture, and look at both clocks")  # fmt: skip
@@ -175,11 +177,6 @@ def roll_pitch_yaw(covariance: Matrix | None, pose: Pose) -> tuple[float, ...]:
 def _unasked(item: ObjectPose) -> PoseRefused:
     message = f"the service gives a pose of `{item.name}`, which it was not asked for"
     return PoseRefused(item.name, "not_asked", message, "mend the service: it answers once for each query")
-
-
-def _other_mesh(item: ObjectPose) -> PoseRefused:
-    message = f"the pose of `{item.name}` is for another shape than the profile's: {item.mesh.sha256[:12]}"
-    return PoseRefused(item.name, "other_mesh", message, "put the object again: `PUT /objects/{id}`")
 
 
 def _missing(name: str) -> PoseRefused:

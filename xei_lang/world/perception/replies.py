@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 
 from xei_lang.world.perception.contract import ProblemModel
 from xei_lang.world.perception.service_fault import ServiceFault
+from xei_lang.world.perception.stray_key import stray_key
 
 MAX_PAUSE_S = 10.0
 
@@ -49,13 +50,18 @@ def http_fault(url: str, reply: Reply) -> ServiceFault:
     return ServiceFault("rejected", message, "compare its contract with `xei schema pose_request`")
 
 
-def garbage(url: str, method: str, path: str, error: ValidationError) -> ServiceFault:
-    """An answer that is not of its form."""
+def garbage(url: str, method: str, path: str, form: type[BaseModel], error: ValidationError) -> ServiceFault:
+    """An answer that is not of its form. A key too many was meant by somebody, so that comes first."""
+    where = f"the answer of the pose service at {url} to {method} {path}"
+    stray = stray_key(form, error)
+    if stray is not None:
+        return ServiceFault("garbage", f"{where} {stray[0]}", stray[1])
     first = error.errors(include_input=False, include_url=False)[0]
     place = ".".join(str(part) for part in first["loc"])
     what = f"`{place[:80]}`: {first['msg'][:120]}" if place else str(first["msg"])[:120]
-    message = f"the answer of the pose service at {url} to {method} {path} is not of its form: {what}"
-    return ServiceFault("garbage", message, "compare it with `xei schema pose_response`")
+    return ServiceFault(
+        "garbage", f"{where} is not of its form: {what}", "compare it with `xei schema pose_response`"
+    )
 
 
 def unlike(url: str, theirs: str, ours: str) -> ServiceFault:

@@ -14,8 +14,8 @@ FaultReason = Literal[
 ]  # fmt: skip
 RefusalReason = Literal[
     "not_asked", "missing", "no_object", "low_quality", "service_error", "other_frame", "other_mesh",
-    "not_rigid", "stale", "from_the_future", "outside_workspace", "out_of_view", "hidden", "depth_residual",
-    "mask_overlap",
+    "other_units", "not_rigid", "stale", "from_the_future", "outside_workspace", "out_of_view", "hidden",
+    "depth_residual", "mask_overlap",
 ]  # fmt: skip
 
 _FAULT_CODES = {

@@ -20,7 +20,8 @@ class Shot:
     """A request with its pictures decoded.
 
     `image` is (h, w) or (h, w, 3), BGR, of 8 bits; `depth_m` (h, w) has NaN where nothing is known; `masks`
-    has the mask of each object that has one, given or proposed.
+    has the mask of each object that has one, given or proposed; `known` are the objects of the queries as the
+    registry has them.
     """
 
     request: PoseRequest
@@ -28,6 +29,7 @@ class Shot:
     image: NDArray[np.uint8]
     depth_m: Array
     masks: Mapping[str, NDArray[np.bool_]]
+    known: tuple[RegisteredObject, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

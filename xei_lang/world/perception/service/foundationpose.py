@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 from xei_lang.world.perception.client import PoseClient
 from xei_lang.world.perception.contract import HealthModel
+from xei_lang.world.perception.other_shape import other_shape
 from xei_lang.world.perception.pictures import encode_mask
 from xei_lang.world.perception.pose_request import Mode, ObjectPose, PoseQuery
 from xei_lang.world.perception.registry import RegisteredObject, Registry
@@ -48,12 +49,16 @@ class FoundationPoseBackend:
         if isinstance(answer, ServiceFault):
             return _unable(answer)
         given = {item.name: item for item in answer.objects}
+        known = {item.name: item for item in shot.known}
         found: list[Estimate] = []
         for query in request.queries:
             item = given.get(query.object_id)
             if item is None or query.object_id not in shot.masks:
                 found.append(Estimate(query.object_id, "no_object"))
-            elif item.mesh.sha256 != query.mesh_sha256 or item.frame_id != request.picture.output_frame:
+            elif (
+                other_shape(item, query, known.get(item.name))
+                or item.frame_id != request.picture.output_frame
+            ):
                 found.append(Estimate(query.object_id, "error"))
             else:
                 found.append(_estimate(item))

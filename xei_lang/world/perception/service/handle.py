@@ -91,7 +91,7 @@ class Desk:
             known = _known(request, self.registry)
             if isinstance(known, Unable):
                 return known
-            shot = _shot(request)
+            shot = _shot(request, known)
             if isinstance(shot, Unable):
                 return shot
             if self.backend.needs_masks:
@@ -118,7 +118,7 @@ def _known(request: PoseRequest, registry: Registry) -> tuple[RegisteredObject, 
     return tuple(found)
 
 
-def _shot(request: PoseRequest) -> Shot | Unable:
+def _shot(request: PoseRequest, known: tuple[RegisteredObject, ...]) -> Shot | Unable:
     optics = Optics.of_intrinsics(request.picture.intrinsics)
     image = colour_image(request.picture.rgb_png, optics.size_px)
     if isinstance(image, str):
@@ -133,7 +133,7 @@ def _shot(request: PoseRequest) -> Shot | Unable:
             if isinstance(mask, str):
                 return Unable(422, f"mask_png of `{query.object_id}`: {mask}")
             masks[query.object_id] = mask
-    return Shot(request, optics, image, depth, masks)
+    return Shot(request, optics, image, depth, masks, known)
 
 
 def _object(estimate: Estimate, item: RegisteredObject, request: PoseRequest) -> ObjectPose:
