@@ -20,6 +20,7 @@ from xei_lang.lower.operations.place import PLACE
 from xei_lang.lower.operations.steady import STEADY
 from xei_lang.lower.operations.twist import CAP
 from xei_lang.lower.parameters import ROUNDING_M
+from xei_lang.lower.payload import refuse_heavy
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.seats import place_text
 from xei_lang.lower.task import Task, refuse_template
@@ -165,6 +166,7 @@ def _attach(task: Task, line: TemplateStep) -> Draft:
         refuse_template(
             line, f"`{argument}` was not grasped before `attach`", "expected `move_to` its grasp first"
         )
+    refuse_heavy(task, subject.name, task.span_of(argument))
     standing, carrier = task.scene.standing.get(subject.name), task.scene.carrier_of(subject.name)
     known = standing is not None or carrier != ""
     T_world_object = task.scene.T_world_of(subject.name) if known else planned.T_world_placed

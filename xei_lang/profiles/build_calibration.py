@@ -46,6 +46,7 @@ def build_calibration(
         map=_map(model, root),
         docking_tolerance_as=docking.kind,
         max_age_s=model.max_age.si if model.max_age else None,
+        payload_span=root.span_of("payload"),
     )
 
 

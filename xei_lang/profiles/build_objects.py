@@ -47,7 +47,8 @@ def build_object(
         geometry=parts,
         size_m=_size(shape),
         mass_kg=model.mass.si if model.mass else 0.0,
-        skills=tuple(model.skills),
+        skills=tuple(model.skills or ()),
+        skills_span=None if model.skills is None else root.span_of(*path, "skills"),
         states=_states(model, root, path),
         liquid=_liquid(model),
         grasp=operation_defaults(model.grasp, root, (*path, "grasp")),
@@ -65,6 +66,7 @@ def build_object(
         computed_from=shaped.computed_from,
         system=system,
         span=root.key_span(*path),
+        mass_span=root.span_of(*path, "mass") if model.mass else None,
     )
 
 

@@ -35,6 +35,7 @@ ENTRIES = {
     "XEI0727": Entry("a hand that lifts what is screwed on"),
     "XEI0728": Entry("a vessel that two hands cannot open or close"),
     "XEI0729": Entry("a cap that is set down on its thread"),
+    "XEI0730": Entry("an object that is too heavy for a hand"),
     # 08xx motion
     "XEI0801": Entry("an object or a place that is out of reach"),
     "XEI0802": Entry("a place that no grasp reaches without touching something"),

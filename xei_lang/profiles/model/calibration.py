@@ -180,6 +180,7 @@ class Calibration(Record):
     map: MapFiles | None = None
     docking_tolerance_as: ToleranceKind = "bound"
     max_age_s: float | None = None
+    payload_span: Span | None = None
 
     def carry_pose(self, arm: Side) -> CarryPose | None:
         """Where this arm carries what it holds, or None where the profile does not say."""

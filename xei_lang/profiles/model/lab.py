@@ -159,7 +159,8 @@ class LabObject(Record):
     """An object of the usage profile or a system object of the registry. Its frame is at its bottom centre, z
     up.
 
-    `assets` are the files that it names, `models` those that were read; `computed_from` says what its size
+    `skills` is all that may be done with it, unless `skills_span` is None: then the profile does not say, and
+    anything may. `assets` are the files that it names, `models` those that were read; `computed_from` says what its size
     was computed from, and is empty where the profile states it.
     """
 
@@ -185,3 +186,5 @@ class LabObject(Record):
     thread: Thread | None = None
     models: tuple[Asset, ...] = ()
     computed_from: str = ""
+    skills_span: Span | None = None
+    mass_span: Span | None = None
