@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import sys
 from pathlib import Path
 
@@ -68,9 +67,7 @@ def command(
             click.echo(f"{result.pass_name:<8} took {result.seconds:.3f} s", err=True)
 
     made = session.compile(passes, watch)
-    code = _write(session, made, stage, output)
-    gc.freeze()  # the process ends here: what it holds goes with it, unsearched
-    sys.exit(code)
+    sys.exit(_write(session, made, stage, output))
 
 
 def _write(session: Session, made: Handoffs, stage: str | None, output: Path | None) -> int:
