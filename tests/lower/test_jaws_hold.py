@@ -1,4 +1,4 @@
-"""Jaws that would not pass an object, or close without touching it, are refused at the number that says it."""
+"""Jaws that would not pass an object, or would not touch it, are refused at the number that says so."""
 
 from __future__ import annotations
 

@@ -259,6 +259,8 @@ BAD_GRASPS = (
     ("jaw_clearance", "80 mm", "XEI0702"),
     ("insertion_depth", "70 mm", "XEI0702"),
     ("insertion_depth", "-1 mm", "XEI0702"),
+    ("insertion_depth", "5 mm", "XEI0702"),
+    ("insertion_depth", "59 mm", "XEI0702"),
     ("approach_height", "60 mm", "XEI0702"),
     ("lift", "60 mm", "XEI0702"),
     ("release_width", "17 mm", "XEI0702"),
@@ -276,6 +278,20 @@ def test_a_usage_profile_parameter_that_does_not_fit(name: str, value: str, code
     assert found.code == code
     if code == "XEI0702":
         assert found.span in (span, Span("test.xei", 10, 18))
+
+
+def test_a_tube_is_not_dropped_into_its_slot() -> None:
+    span = Span("usage.yaml", 5, 9)
+    tube = replace(
+        known("tube_1"), grasp=(OperationDefault("insertion_depth", parse_quantity("5 mm"), span),)
+    )
+    found = refused(put_on_rack(), with_object(bench()[0], "tube_1", tube))
+    assert found.message == '`insertion_depth` of 5 mm lets `tube_1` fall 60 mm in `rack_2.slot("A1")`'
+    assert found.label == "expected 60 mm .. 65 mm"
+    slots = bench()[0].object("rack_2")
+    assert slots is not None
+    assert slots.slots is not None
+    assert [label.span for label in found.labels] == [slots.slots.span]
 
 
 def test_a_usage_profile_outranks_what_is_computed() -> None:

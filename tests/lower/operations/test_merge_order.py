@@ -77,7 +77,7 @@ RANGES: dict[str, tuple[int, int, str]] = {
     "grasp_depth": (20, 30, "mm"),
     "lift": (100, 150, "mm"),
     "approach_height": (100, 150, "mm"),
-    "insertion_depth": (10, 60, "mm"),
+    "insertion_depth": (60, 65, "mm"),
     "release_width": (40, 80, "mm"),
     "pour_clearance": (5, 40, "mm"),
     "pour_height": (120, 200, "mm"),

@@ -24,6 +24,10 @@ from xei_lang.quantity.lengths import exact_mm
 from xei_lang.world.places import accepting, accepts
 
 _DEFAULT_CLEARANCE_M = 0.004
+_MOST_FALL_M = 0.005
+"""How far over the bottom of its slot a thing may be let go: benches are known to a few millimetres, and who
+fears to press on the bottom may stay so much above it.
+"""
 
 
 def plan(work: Work) -> Planned:
@@ -145,7 +149,22 @@ def _insertion_depth(work: Work, seat: Seat) -> Setting | None:
             f"expected up to {exact_mm(seat.grid.depth_m)}",
             (Label(seat.grid.span, "the slots are stated here"),),
         )
+    _refuse_drop(work, seat, seat.grid, setting)
     return setting
+
+
+def _refuse_drop(work: Work, seat: Seat, grid: SlotGrid, depth: Setting) -> None:
+    fall_m = grid.depth_m - depth.si("Length")
+    if fall_m > _MOST_FALL_M + ROUNDING_M:
+        refuse(
+            "XEI0702",
+            f"`{depth.name}` of {depth.text} lets `{work.object}` fall {exact_mm(fall_m)} in `{seat.text}`",
+            depth.span or work.span,
+            f"expected {exact_mm(grid.depth_m - _MOST_FALL_M)} .. {exact_mm(grid.depth_m)}",
+            (Label(grid.span, "the slots are stated here"),),
+            notes=("jaws let go of an object where something carries it, or just above",),
+            help=(f"leave `{depth.name}` out: it is the depth of the slot then",),
+        )
 
 
 def _world_seat(work: Work, seat: Seat, known: LabObject) -> Pose:
