@@ -6,6 +6,8 @@ from collections.abc import Iterator
 
 from xei_lang.diagnostics import Diagnostic, Label
 from xei_lang.ir.tolerance import as_bound
+from xei_lang.profiles.checks.leaning import check_leaning, lean_text, leans, turned_text
+from xei_lang.profiles.checks.overlap import lowest_m
 from xei_lang.profiles.grid import T_frame_object, T_world_frame
 from xei_lang.profiles.model import LabObject, Profile, SlotGrid
 from xei_lang.profiles.trees import Trees
@@ -28,6 +30,7 @@ def check_geometry(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
             yield from _bores(profile, item, item.slots)
         yield from _vessel(item)
         yield from _below(profile, item)
+    yield from check_leaning(profile)
     yield from _table(profile)
     yield from _bounds(profile, trees)
 
@@ -123,14 +126,18 @@ def _below(profile: Profile, item: LabObject) -> Iterator[Diagnostic]:
     placed = T_frame_object(profile, item)
     if placed is None or item.system or item.prior is None or item.prior.frame not in tables:
         return
-    height = placed[1].position_m[2]
+    turned = leans(placed[1])
+    height = lowest_m(item, placed[1]) if turned else placed[1].position_m[2]
     if height < -_SLACK_M:
         yield Diagnostic(
             "XEI0643",
             f"`{item.name}` would stand {exact_mm(-height)} below the top of `{placed[0]}`",
             item.prior.span,
             label="expected a height of 0 or above",
-            notes=("an object's frame is at its bottom",),
+            notes=(
+                "an object's frame is at its bottom",
+                *((f"it {lean_text(placed[1])}", turned_text(placed[1])) if turned else ()),
+            ),
         )
 
 

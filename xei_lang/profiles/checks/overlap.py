@@ -1,7 +1,7 @@
 """Objects whose priors put them into each other.
 
-Boxes and cylinders that stand upright are tested exactly in the plane; parts that are tilted are left to the
-collision checks of motion. An object may overlap what it stands in.
+Boxes and cylinders that stand upright are tested exactly in the plane; what leans or lies, and other shapes,
+as convex solids. An object may overlap what it stands in.
 """
 
 from __future__ import annotations
@@ -11,13 +11,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from xei_lang.diagnostics import Diagnostic, Label
-from xei_lang.ir.geometry import Box, Cylinder, Pose
+from xei_lang.ir.geometry import Box, Cylinder, Pose, Shape
+from xei_lang.profiles.checks.convex import TOUCH_M, Convex, convex, convex_overlap_m
 from xei_lang.profiles.grid import T_frame_object, T_world_frame, prior_chain
 from xei_lang.profiles.model import LabObject, Profile
 from xei_lang.quantity.lengths import mm
-
-TOUCH_M = 1e-4
-"""Parts that share less than this along some direction count as touching."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +32,17 @@ class Upright:
     half_m: tuple[float, float]
     radius_m: float
 
+    @property
+    def as_convex(self) -> Convex:
+        """The same solid, for one that leans to be held against."""
+        c, s = math.cos(self.yaw_rad), math.sin(self.yaw_rad)
+        centre = (self.x_m, self.y_m, (self.lower_m + self.upper_m) / 2)
+        axes = ((c, s, 0.0), (-s, c, 0.0), (0.0, 0.0, 1.0))
+        return Convex(centre, axes, (*self.half_m, (self.upper_m - self.lower_m) / 2), disc_m=self.radius_m)
+
+
+Solid = Upright | Convex
+
 
 def check_overlap(profile: Profile) -> Iterator[Diagnostic]:
     """Pairs of objects that stand in each other, each pair once."""
@@ -42,6 +51,8 @@ def check_overlap(profile: Profile) -> Iterator[Diagnostic]:
         for second, others in solids[index + 1 :]:
             if second in prior_chain(profile, first) or first in prior_chain(profile, second):
                 continue
+            if first.system and second.system and not _all_upright(parts, others):
+                continue  # Furniture whose measured frame leans a little reaches into the floor a little.
             depth = max((overlap_m(a, b) for a in parts for b in others), default=0.0)
             if depth > TOUCH_M:
                 yield _diagnostic(first, second, depth)
@@ -61,34 +72,53 @@ def _diagnostic(first: LabObject, second: LabObject, depth_m: float) -> Diagnost
     )
 
 
-def _solids(profile: Profile, item: LabObject) -> tuple[Upright, ...]:
+def _all_upright(parts: tuple[Solid, ...], others: tuple[Solid, ...]) -> bool:
+    return all(isinstance(part, Upright) for part in (*parts, *others))
+
+
+def _solids(profile: Profile, item: LabObject) -> tuple[Solid, ...]:
     placed = T_frame_object(profile, item)
     T_world_frame_ = T_world_frame(profile, placed[0]) if placed else None
     return solids_at(item, T_world_frame_ @ placed[1]) if placed and T_world_frame_ else ()
 
 
-def solids_at(item: LabObject, T_world_object: Pose) -> tuple[Upright, ...]:
-    """The parts of an object that stand upright where it is put."""
-    found: list[Upright] = []
-    for part in item.geometry:
-        pose = T_world_object @ part.T_object_shape
-        x_axis, _, z_axis = pose.axes()
-        shape = part.shape
-        if z_axis[2] < 1.0 - 1e-9 or not isinstance(shape, (Box, Cylinder)):
-            continue
-        x, y, z = pose.position_m
-        height = shape.size_m[2] if isinstance(shape, Box) else shape.height_m
-        half = (shape.size_m[0] / 2, shape.size_m[1] / 2) if isinstance(shape, Box) else (0.0, 0.0)
-        radius = shape.radius_m if isinstance(shape, Cylinder) else 0.0
-        found.append(
-            Upright(x, y, z - height / 2, z + height / 2, math.atan2(x_axis[1], x_axis[0]), half, radius)
-        )
-    return tuple(found)
+def solids_at(item: LabObject, T_world_object: Pose) -> tuple[Solid, ...]:
+    """The parts of an object where it is put."""
+    return tuple(_solid(part.shape, T_world_object @ part.T_object_shape) for part in item.geometry)
 
 
-def overlap_m(a: Upright, b: Upright) -> float:
-    """How deep two upright solids stand in each other, along the best direction to part them; at most 0 where
-    apart.
+def _solid(shape: Shape, pose: Pose) -> Solid:
+    x_axis, _, z_axis = pose.axes()
+    if z_axis[2] < 1.0 - 1e-9 or not isinstance(shape, (Box, Cylinder)):
+        return convex(shape, pose)
+    x, y, z = pose.position_m
+    height = shape.size_m[2] if isinstance(shape, Box) else shape.height_m
+    half = (shape.size_m[0] / 2, shape.size_m[1] / 2) if isinstance(shape, Box) else (0.0, 0.0)
+    radius = shape.radius_m if isinstance(shape, Cylinder) else 0.0
+    return Upright(x, y, z - height / 2, z + height / 2, math.atan2(x_axis[1], x_axis[0]), half, radius)
+
+
+def lowest_m(item: LabObject, T_frame_object: Pose) -> float:
+    """The height in a frame of an object's lowest point; its origin's where it has no geometry."""
+    parts = solids_at(item, T_frame_object)
+    heights = [part.lower_m if isinstance(part, Upright) else _lowest(part) for part in parts]
+    return min(heights, default=T_frame_object.position_m[2])
+
+
+def _lowest(part: Convex) -> float:
+    return part.centre_m[2] - part.reach_m((0.0, 0.0, 1.0))
+
+
+def overlap_m(a: Solid, b: Solid) -> float:
+    """How deep two solids are in each other, by the best direction to part them; at most 0 where apart."""
+    if isinstance(a, Upright) and isinstance(b, Upright):
+        return _upright_overlap_m(a, b)
+    one, other = (solid.as_convex if isinstance(solid, Upright) else solid for solid in (a, b))
+    return convex_overlap_m(one, other)
+
+
+def _upright_overlap_m(a: Upright, b: Upright) -> float:
+    """The overlap of two solids that stand upright.
 
     A disc is a rectangle of zero size with a rounding radius. Footprints are parted along the rectangles'
     axes and, for a disc, also along the direction from the other footprint's nearest point (the separating
