@@ -264,8 +264,8 @@ BAD_GRASPS = (
     ("approach_height", "60 mm", "XEI0702"),
     ("lift", "60 mm", "XEI0702"),
     ("release_width", "17 mm", "XEI0702"),
-    ("standoff", "20 mm", "XEI0704"),
-    ("grasp_depth", "60 mm", "XEI0704"),
+    ("standoff", "20 mm", "XEI0702"),
+    ("grasp_depth", "60 mm", "XEI0702"),
 )
 
 

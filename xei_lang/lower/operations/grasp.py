@@ -13,7 +13,8 @@ from xei_lang.lower.operations.approach import back_off
 from xei_lang.lower.operations.base import Aim, Operation, Planned, Work
 from xei_lang.lower.operations.closing import MIN_CLEARANCE_M, Closing, height_of, is_round
 from xei_lang.lower.operations.grasp_family import Request, grasps
-from xei_lang.lower.operations.grasp_ways import ELEVATIONS_DEG
+from xei_lang.lower.operations.grasp_limits import refuse_written
+from xei_lang.lower.operations.grasp_ways import APPROACHES, ELEVATIONS_DEG
 from xei_lang.lower.operations.jaws import Seen, jaws_on
 from xei_lang.lower.operations.standing import standing_object
 from xei_lang.lower.parameters import Setting, computed_length
@@ -24,8 +25,6 @@ from xei_lang.lower.walk import Standing
 from xei_lang.profiles.model import LabObject
 from xei_lang.quantity.lengths import mm
 from xei_lang.world.places import accepts
-
-_APPROACHES = {"top": (60.0, 90.0), "oblique": (30.0, 45.0, 60.0), "side": (0.0, 30.0)}
 
 
 def plan(work: Work) -> Planned:
@@ -41,6 +40,7 @@ def plan(work: Work) -> Planned:
     request = _request(work, known, jaws.closing, floor_m, seen)
     found = grasps(request)
     if found is None:
+        refuse_written(work, known, request)
         _refuse_family(work, known, host, request)
     family = Family(work.family_id, known.name, found.members, is_round(known.shape))
     standoff = _standoff(work, found.standoff_m)
@@ -140,14 +140,14 @@ def _elevations(work: Work) -> tuple[float, ...]:
     approach = work.layers.written("approach")
     if approach is None:
         return ELEVATIONS_DEG
-    if approach.text not in _APPROACHES:
+    if approach.text not in APPROACHES:
         refuse(
             "XEI0702",
             f"`approach: {approach.text}` is not a way to approach",
             approach.span,
-            f"expected one of {', '.join(sorted(_APPROACHES))}",
+            f"expected one of {', '.join(sorted(APPROACHES))}",
         )
-    return _APPROACHES[approach.text]
+    return APPROACHES[approach.text]
 
 
 def _standoff(work: Work, needed: float) -> Setting:

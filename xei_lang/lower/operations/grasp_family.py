@@ -167,7 +167,7 @@ def _sampled(request: Request, lowest: float) -> tuple[float, ...]:
     top = request.height_m
     if request.depth_m is not None:
         wanted = top - request.depth_m
-        return (wanted,) if lowest <= wanted <= top else ()
+        return (wanted,) if lowest - 1e-9 <= wanted <= top else ()
     highest = top - min(_TOP_MARGIN_M, top / 5)
     room = highest - lowest
     if room < 0.0:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
 from xei_lang.ir.families import Turned
 from xei_lang.ir.geometry import Pose, Vec3
@@ -17,6 +18,11 @@ from xei_lang.lower.hand import drop_m, tool_axes
 
 ELEVATIONS_DEG = (0.0, 30.0, 45.0, 60.0, 90.0)
 _STEEP_COSTS = {60.0: 0.1, 90.0: 0.4}
+
+APPROACHES: Mapping[str, tuple[float, ...]] = MappingProxyType(
+    {"top": (60.0, 90.0), "oblique": (30.0, 45.0, 60.0), "side": (0.0, 30.0)}
+)
+"""The elevations that `approach` leaves, by its words."""
 
 ROUND_RAD = tuple(2 * math.pi * k / 12 for k in range(12))
 """Headings to a round shape."""
