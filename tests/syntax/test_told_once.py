@@ -83,7 +83,7 @@ def test_a_lost_brace_beside_another_slip(text: str, lines: list[int]) -> None:
         "let d = a *",
         "let d =",
         "param n:",
-        "param n_int :",
+        "param nInt :",
         "param :n Int",
         "object :bottle movable & pourable = bottle_2",
         "measure :od Float = read(device=reader)",
@@ -98,3 +98,21 @@ def test_a_line_that_breaks_off_ends_before_the_next_step(line: str, below: str,
         return  # What stands below is the value.
     found = told(f"protocol p {{\n  {line}\n  {below}\n  {behind}\n  home()\n}}\n")
     assert [line for line, _ in found] == [2, 4][: 1 + (behind != "wait 5 s")]
+
+
+@pytest.mark.parametrize(
+    "argument",
+    [
+        'tip=tips.slot("A1",',
+        'tip=f(g("A1",',
+        "source(source,",
+        "source=source(",
+        "source=source[",
+        "source=source=",
+        "source=source:",
+    ],
+)
+def test_a_parenthesis_that_stays_open_inside_of_a_call_is_told_where_it_is(argument: str) -> None:
+    call = f"  transfer(\n    source=a,\n    {argument}\n    target=b,\n    arm=right,\n  )\n"
+    found = told(f"protocol p {{\n  home()\n{call}  put_back: place(object=a)\n  home()\n}}\n")
+    assert [line for line, _ in found] == [5]

@@ -140,8 +140,13 @@ def _slip(source: Source, site: Site) -> Diagnostic | None:
     return None
 
 
-def _never_closed(source: Source, opened: Token, span: Span) -> Diagnostic:
-    message = f"the file ends before `{opened.text}` is closed"
+def explain_unclosed(source: Source, opener: Token, end: int) -> Diagnostic:
+    """The diagnostic for a bracket that lacks its end on its line."""
+    return _never_closed(source, opener, Span(source.file, end, end), "line")
+
+
+def _never_closed(source: Source, opened: Token, span: Span, what: str = "file") -> Diagnostic:
+    message = f"the {what} ends before `{opened.text}` is closed"
     labels = (Label(Span(source.file, opened.start, opened.end), "opened here"),)
     return Diagnostic("XEI0104", message, span, f"expected `{_CLOSING[opened.text]}`", labels)
 

@@ -4,9 +4,10 @@ What does not follow the grammar is mended or left out, token by token, until th
 driver then builds the tree of what remains. In this order:
 
 1. braces that are missing or too many, where the indentation shows it (braces.py);
-2. a habit that is known, with what was meant by it (habits.py);
-3. one token put in, left out or replaced, if the text then goes on (repairs.py);
-4. an argument, or else a statement, left out: on to the next comma, statement or closing brace.
+2. a bracket that stays open inside of a call over several lines (parentheses.py);
+3. a habit that is known, with what was meant by it (habits.py);
+4. one token put in, left out or replaced, if the text then goes on (repairs.py);
+5. an argument, or else a statement, left out: on to the next comma, statement or closing brace.
 """
 
 from __future__ import annotations
@@ -18,7 +19,14 @@ from dataclasses import dataclass, replace
 from xei_lang.diagnostics import Diagnostic, Diagnostics, Source, Span
 from xei_lang.syntax.braces import find_brace_faults
 from xei_lang.syntax.cursor import Cursor
-from xei_lang.syntax.faults import Site, explain, explain_brace, explain_habit, too_many
+from xei_lang.syntax.faults import (
+    Site,
+    explain,
+    explain_brace,
+    explain_habit,
+    explain_unclosed,
+    too_many,
+)
 from xei_lang.syntax.habit import Habit
 from xei_lang.syntax.habits import find_habit
 from xei_lang.syntax.layout import (
@@ -27,6 +35,7 @@ from xei_lang.syntax.layout import (
 from xei_lang.syntax.leaving_out import leave_out, leave_out_argument
 from xei_lang.syntax.lexer import COMMENT, Scanner, Token
 from xei_lang.syntax.nesting import MAX_FAULTS
+from xei_lang.syntax.parentheses import Unclosed, find_unclosed
 from xei_lang.syntax.repairs import LOOK, Repair, find_repair
 from xei_lang.syntax.stack import Machine
 from xei_lang.syntax.tables import END
@@ -114,6 +123,9 @@ class _Recovery:
     def _mend(self) -> bool:
         """Report the token that cannot follow and get past it; False where nothing follows any more."""
         self._mends += 1
+        unclosed = find_unclosed(self._cursor)
+        if unclosed is not None and self._close(unclosed):
+            return True
         before = tuple(done.token for done in self._cursor.done[-_BEFORE:])
         token = self._cursor.tokens[self._cursor.at]
         quiet = self._cursor.at == self._cursor.resumed_at or self._is_quiet(token) or self._in_doubt()
@@ -143,6 +155,17 @@ class _Recovery:
         if repair is not None and self._apply(repair):
             return True
         return leave_out_argument(self._cursor) or leave_out(self._cursor)
+
+    def _close(self, unclosed: Unclosed) -> bool:
+        """Close the call whose `)` went to a bracket inside of it."""
+        length = len(self._cursor.done)
+        self._cursor.hurt(unclosed.opener.start, unclosed.closing[0].start)
+        self._cursor.put_in(unclosed.closing)
+        if len(self._cursor.done) == length:
+            return False
+        if not self._line_is_quiet(unclosed.opener.start):
+            self._report(explain_unclosed(self._source, unclosed.opener, unclosed.end))
+        return True
 
     def _is_better(self, repair: Repair | None, habit: Habit) -> bool:
         """Whether a repair explains more than a habit does."""
@@ -181,7 +204,7 @@ class _Recovery:
         if quieten and diagnostic.span is not None:
             self._quiet_lines.add(self._source.line_number(diagnostic.span.start))
 
-    # ---- 2 and 3: mends that keep the statement ----
+    # ---- 3 and 4: mends that keep the statement ----
 
     def _mended(self, habit: Habit) -> tuple[int, tuple[Token, ...], list[Token]]:
         """How many tokens stay before a habit, what is meant by it, and what comes behind."""
@@ -215,7 +238,9 @@ class _Recovery:
 
     def _apply(self, repair: Repair) -> bool:
         wrong = self._cursor.tokens[self._cursor.at]
-        self._cursor.hurt(min(repair.blamed.start, wrong.start), wrong.end)
-        self._cursor.give_back(len(self._cursor.done) - repair.back)
+        length = len(self._cursor.done) - repair.back
+        first = self._cursor.done[length].token if repair.back else wrong
+        self._cursor.give_back(length)
+        self._cursor.hurt(min(repair.blamed.start, first.start), wrong.end)
         self._cursor.at += repair.drop
         return self._cursor.put_in(repair.tokens)
