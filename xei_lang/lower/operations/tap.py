@@ -25,7 +25,7 @@ from xei_lang.quantity.lengths import exact_mm
 _ELEVATIONS_DEG = (0.0, 20.0, 40.0, 60.0)
 _AZIMUTHS_DEG = (0.0, 20.0, -20.0, 40.0, -40.0)
 _STANDOFF_M = 0.05
-_DIRECTIONS = {"right": (1.0, 0.0), "left": (-1.0, 0.0), "up": (0.0, 1.0), "down": (0.0, -1.0)}
+DIRECTIONS = {"right": (1.0, 0.0), "left": (-1.0, 0.0), "up": (0.0, 1.0), "down": (0.0, -1.0)}
 
 
 def plan_tap(work: Work) -> Planned:
@@ -102,13 +102,13 @@ def _element(work: Work) -> tuple[LabObject, Element]:
 
 def _end(work: Work, screen: LabObject, start: tuple[float, float]) -> tuple[float, float]:
     word, length = work.layers.call["direction"], work.layers.call["distance"]
-    direction = _DIRECTIONS.get(word.text)
+    direction = DIRECTIONS.get(word.text)
     if direction is None:
         refuse(
             "XEI0720",
             f"`{word.text}` is no direction along a screen",
             word.span or work.span,
-            f"expected {', '.join(f'`{item}`' for item in _DIRECTIONS)}",
+            f"expected {', '.join(f'`{item}`' for item in DIRECTIONS)}",
         )
     way = length.si("Length")
     end = (start[0] + way * direction[0], start[1] + way * direction[1])

@@ -3,80 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import chain
 from types import MappingProxyType
 from typing import get_args
 
 from xei_lang.ir.goals import GoalKind, PathKind
 from xei_lang.profiles.checks.names import OPERATION_PARAMETERS
+from xei_lang.profiles.checks.operations import OPERATIONS
 from xei_lang.profiles.model import Profile, SkillSpec, TemplateStep
 
+_KINDS = ("object", "cap", "Place")
+
 POINTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
-    {
-        "object": (
-            "pregrasp",
-            "aspirate_above",
-            "aspirate",
-            "dispense_above",
-            "dispense",
-            "eject",
-            "grasp",
-            "lift",
-            "pour_above",
-            "pour_tilt",
-            "tap_above",
-            "tap",
-            "swipe_above",
-            "swipe_start",
-            "swipe_end",
-            "swipe_away",
-            "invert_above",
-            "inverted",
-            "shake_above",
-            "shake_left",
-            "shake_right",
-            "handover_hold",
-            "handover_pregrasp",
-            "handover_grasp",
-            "handover_retreat",
-            "hold_pregrasp",
-            "hold_grasp",
-            "hold_lift",
-            "hold_air",
-            "hold_above",
-            "hold_place",
-            "hold_retreat",
-        ),
-        "cap": (
-            "cap_pregrasp",
-            "cap_grasp",
-            "cap_lift",
-            "cap_turned",
-            "cap_tightened",
-            "cap_back",
-            "cap_off",
-            "cap_over",
-            "cap_on",
-            "cap_clear",
-        ),
-        "Place": (
-            "tip_above",
-            "tip_on",
-            "above",
-            "place",
-            "retreat",
-            "wipe_above",
-            "wipe_start",
-            "wipe_end",
-            "wipe_away",
-        ),
-    }
+    {kind: tuple(chain(*(item.points for item in OPERATIONS if item.of == kind))) for kind in _KINDS}
 )
 """Points of an operation, by the type of the argument that they belong to."""
 
 AXES: Mapping[str, tuple[str, ...]] = MappingProxyType(
-    {"object": ("pour_lip", "invert_axis", "shake_axis"), "cap": ("cap_axis",)}
+    {kind: tuple(chain(*(item.axes for item in OPERATIONS if item.of == kind))) for kind in _KINDS}
 )
-AREAS: Mapping[str, tuple[str, ...]] = MappingProxyType({"Place": ("wipe_area",)})
+AREAS: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {kind: tuple(chain(*(item.areas for item in OPERATIONS if item.of == kind))) for kind in _KINDS}
+)
 """Axes and areas of an operation's stated paths, by the type of the argument that they belong to."""
 
 HEIGHTS: Mapping[str, tuple[str, ...]] = MappingProxyType({"object": ("look_height",), "Station": ("slide",)})

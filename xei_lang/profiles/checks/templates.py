@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from xei_lang.diagnostics import Diagnostic
 from xei_lang.profiles.checks.repeats import check_repeats
+from xei_lang.profiles.checks.template_needs import check_needs
 from xei_lang.profiles.checks.template_words import FIELDS, words_of
 from xei_lang.profiles.checks.unknown import unknown
 from xei_lang.profiles.model import Profile, SkillSpec, TemplateStep
@@ -17,6 +18,7 @@ _MINUS = ("", "-")
 def check_template(profile: Profile, skill: SkillSpec, trees: Trees) -> Iterator[Diagnostic]:
     """Repeats of the template, the fields of its lines, and the names in them (XEI0623)."""
     yield from check_repeats(skill, trees)
+    yield from check_needs(skill, trees)
     for step in skill.template:
         yield from _fields(skill, step)
         for field, value in step.fields:

@@ -2,26 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from types import MappingProxyType
+from collections.abc import Iterator
 
 from xei_lang.diagnostics import Diagnostic
 from xei_lang.profiles.checks.names import OPERATION_PARAMETERS
+from xei_lang.profiles.checks.operations import of_line
 from xei_lang.profiles.model import Profile, SkillSpec
 from xei_lang.syntax import ast
-
-READ: Mapping[str, tuple[str, ...]] = MappingProxyType(
-    {
-        "pour": ("volume",),
-        "aspirate": ("volume",),
-        "dispense": ("volume",),
-        "tap": ("element",),
-        "swipe": ("element", "direction", "distance"),
-        "wipe": ("length", "width"),
-    }
-)
-"""The arguments that an operation reads by their names, by the first word of its points."""
-
 
 def check_unused(profile: Profile) -> Iterator[Diagnostic]:
     """Arguments that are in no rule, no line of the template, and read by none of its operations.
@@ -49,8 +36,9 @@ def _used(skill: SkillSpec) -> frozenset[str]:
         names.update(node.id for node in ast.walk(rule.predicate) if isinstance(node, ast.Name))
     for line in skill.template:
         for _, value in line.fields:
-            argument, _, point = str(value).removeprefix("-").partition(".")
-            names.update((argument, *READ.get(point.partition("_")[0], ())))
+            names.add(str(value).removeprefix("-").partition(".")[0])
+        for _, operation in of_line(line):
+            names.update((*operation.needs, *operation.called, *operation.reads))
         if line.repeat is not None:
             names.add(str(line.repeat.times))
     return frozenset(names)
