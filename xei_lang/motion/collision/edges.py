@@ -95,7 +95,7 @@ def _levers(robot: Robot, geometry: Geometry) -> Array:
     For a revolute joint this is the distance to its axis, bounded by a polyline from a point of the axis over
     points of the axes between, whose lengths no joint changes.
     """
-    axes = _axes(robot)
+    axes = axes_of(robot)
     levers = np.zeros((len(geometry.names), robot.nq))
     for row, (carrier, item) in enumerate(
         zip(geometry.joint.tolist(), geometry.model.geometryObjects, strict=True)
@@ -115,7 +115,7 @@ def _levers(robot: Robot, geometry: Geometry) -> Array:
 
 
 @dataclass(frozen=True, slots=True)
-class _Axis:
+class Axis:
     """A joint in base_link with all joints at zero; `point` lies on its axis, near the next joint or the one
     before.
     """
@@ -127,10 +127,10 @@ class _Axis:
     travel_m: float
 
 
-def _axes(robot: Robot) -> dict[int, _Axis]:
-    """By pinocchio's joint index."""
+def axes_of(robot: Robot) -> dict[int, Axis]:
+    """The axes of all joints by pinocchio's joint index."""
     zero = np.zeros(robot.nq)
-    axes: dict[int, _Axis] = {}
+    axes: dict[int, Axis] = {}
     for index, name in enumerate(robot.joint_names, start=1):
         T, twist = robot.T_base_frame(zero, name), robot.jacobian(zero, name)[:, index - 1]
         revolute = bool(np.linalg.norm(twist[3:]) > 0.5)
@@ -141,7 +141,7 @@ def _axes(robot: Robot) -> dict[int, _Axis]:
             near = parent.point if parent is not None and follows else _next_origin(robot, index)
             point = point + twist[3:] * float(twist[3:] @ (near - point))
         travel = 0.0 if revolute else float(max(abs(robot.lower[index - 1]), abs(robot.upper[index - 1])))
-        axes[index] = _Axis(T[:3, :3], T[:3, 3], point, revolute, travel)
+        axes[index] = Axis(T[:3, :3], T[:3, 3], point, revolute, travel)
     return axes
 
 

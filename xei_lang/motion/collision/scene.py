@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from xei_lang.motion.collision.bodies import AttachedBody, Geometry, StaticBody, robot_links, scene_geometry
-from xei_lang.motion.collision.edges import MotionBound, edge_is_free, motion_bound
+from xei_lang.motion.collision.edges import MARGINS_M, MotionBound, edge_is_free, motion_bound
+from xei_lang.motion.collision.reach import Reach, reach_of
 from xei_lang.motion.robot import Array, Robot
 
 pin: Any = importlib.import_module("pinocchio")  # ships no type information
@@ -62,6 +63,7 @@ class CollisionScene:
     allowed: tuple[tuple[str, str], ...]
     padding_m: float
     _links: Any = field(repr=False, compare=False)
+    _reach: Reach = field(repr=False, compare=False)
     _compiled: list[_Engine] = field(default_factory=list[_Engine], repr=False, compare=False)
 
     def with_attached(self, body: AttachedBody) -> CollisionScene:
@@ -109,7 +111,8 @@ class CollisionScene:
         """The least distance in metres between bodies that may not touch, padding left aside, and which they
         are.
 
-        Negative where they overlap; infinite, without names, where there is no pair.
+        Negative where they overlap; infinite, without names, where there is no pair. Pairs that never come
+        near each other are left aside.
         """
         engine = self._engine()
         if len(engine.geometry.model.collisionPairs) == 0:
@@ -155,7 +158,8 @@ class CollisionScene:
     def _compile(self) -> _Engine:
         geometry = scene_geometry(self.robot, self._links, self.standing, self.attached)
         checked = self._checked_pairs(geometry)
-        geometry.model.setCollisionPairs(checked, True)
+        asked = checked & self._reach.may_meet(geometry, self.padding_m + max(MARGINS_M))
+        geometry.model.setCollisionPairs(asked, True)
         data = pin.GeometryData(geometry.model)
         still = geometry.joint == 0
         padding = self.padding_m * (still[:, None] ^ still[None, :])
@@ -202,4 +206,5 @@ def collision_scene(
     padding_m: float = 0.0,
 ) -> CollisionScene:
     """A scene around the robot; `padding_m` is the distance to keep between what moves and what stands."""
-    return CollisionScene(robot, standing, attached, allowed, padding_m, robot_links(robot))
+    links = robot_links(robot)
+    return CollisionScene(robot, standing, attached, allowed, padding_m, links, reach_of(robot, links))
