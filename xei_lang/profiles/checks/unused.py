@@ -10,6 +10,7 @@ from xei_lang.profiles.checks.operations import of_line
 from xei_lang.profiles.model import Profile, SkillSpec
 from xei_lang.syntax import ast
 
+
 def check_unused(profile: Profile) -> Iterator[Diagnostic]:
     """Arguments that are in no rule, no line of the template, and read by none of its operations.
 
