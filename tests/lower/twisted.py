@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from fractions import Fraction
 
 from tests.lower.plans import bench, obj, plan, with_object, with_skill
 from xei_lang.ir.families import ToolTarget
@@ -106,7 +107,7 @@ def sized(cap_mm: int, body_mm: int, high_mm: int, lead_um: int, quarters: int) 
     return with_object(with_object(profile, BOTTLE, bottle), CAP, cap)
 
 
-def with_stroke(text: int) -> Profile:
+def with_stroke(text: int | Fraction) -> Profile:
     profile = bench()[0]
     skill = profile.bank.skill("twist_open")
     assert skill is not None

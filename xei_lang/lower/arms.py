@@ -7,6 +7,7 @@ arm that picks well and cannot place is the wrong one. Ties go to the right arm.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from xei_lang.ir.geometry import Pose
@@ -15,7 +16,7 @@ from xei_lang.lower.hand import SIDES
 from xei_lang.lower.robot import shoulder_xy
 from xei_lang.lower.seats import place_text, seat_of
 from xei_lang.lower.walk import Scene
-from xei_lang.profiles.model import Profile
+from xei_lang.profiles.model import Profile, SkillSpec
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +65,30 @@ def choose(name: str, ahead: tuple[Destination, ...], scene: Scene, profile: Pro
         if item.arm is not None:
             return Choice(item.arm, f"`{item.step_id}` sets it down with it")
     return _nearest(name, ahead, scene, profile)
+
+
+def arms_of(
+    step: Step, spec: SkillSpec, scene: Scene, instead: Side | None, nearest: Callable[[], Choice]
+) -> dict[str, Choice]:
+    """The arms of a step's arm arguments, by argument: those that it says, else the one that has the object,
+    the one that another argument leaves, or the nearest. With `instead`, that one takes the place of a single
+    arm, said or not.
+    """
+    names = [argument.name for argument in spec.args if argument.type == "Arm"]
+    stated: dict[str, Side] = {name: side for name in names for side in SIDES if step.arg(name) == side}
+    arms: dict[str, Choice] = {}
+    for name in names:
+        others = [Choice(side, "") for other, side in stated.items() if other != name]
+        if name not in stated and arms:
+            arms[name] = other_than(next(iter(arms.values())))
+        elif instead is not None:
+            arms[name] = Choice(instead, "the other arm was tried and cannot")
+        elif name in stated:
+            arms[name] = Choice(stated[name], "")
+        else:
+            chosen = nearest()
+            arms[name] = other_than(others[0]) if others and chosen.arm not in scene.held else chosen
+    return arms
 
 
 def other_than(first: Choice) -> Choice:

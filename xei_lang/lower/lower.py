@@ -10,11 +10,10 @@ from xei_lang.ir.goals import Action, Confirm, Instrument, MotionGoalGraph, Wait
 from xei_lang.ir.skill_plan import ObjectRef, PoseIn, Side, SkillPlan, Step, Value
 from xei_lang.ir.world import World
 from xei_lang.lower import instruments
-from xei_lang.lower.arms import Choice, choose, destinations, other_than
+from xei_lang.lower.arms import arms_of, choose, destinations
 from xei_lang.lower.assemble import Assembly
 from xei_lang.lower.decided_later import decided_when_it_runs
 from xei_lang.lower.draft import Draft, contacts
-from xei_lang.lower.hand import SIDES
 from xei_lang.lower.refusal import Refusal, refuse
 from xei_lang.lower.scene_origin import STEP_ID, arrival, scene_origin
 from xei_lang.lower.task import Task
@@ -144,17 +143,8 @@ def _task(
     movable = _movable(step, profile)
     name = next((item for item in movable if scene.holder(item)), movable[0] if movable else "")
     ahead = destinations(plan, index, name, scene, profile) if name else ()
-    arms: dict[str, Choice] = {}
-    for argument in spec.args:
-        if argument.type == "Arm":
-            stated: Side | None = next((side for side in SIDES if step.arg(argument.name) == side), None)
-            about = name or next(iter(_objects(step)), "")
-            chosen = Choice(stated, "") if stated else choose(about, ahead, scene, profile)
-            if not stated and arms:
-                chosen = other_than(next(iter(arms.values())))
-            elif arm is not None:
-                chosen = Choice(arm, "the other arm was tried and cannot")
-            arms[argument.name] = chosen
+    about = name or next(iter(_objects(step)), "")
+    arms = arms_of(step, spec, scene, arm, lambda: choose(about, ahead, scene, profile))
     return Task(profile, step, spec, scene, arms, name, ahead)
 
 

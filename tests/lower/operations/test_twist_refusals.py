@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from fractions import Fraction
 
 import pytest
 
@@ -18,6 +19,7 @@ from tests.lower.twisted import (
 )
 from xei_lang.diagnostics import Diagnostic
 from xei_lang.ir.geometry import Pose
+from xei_lang.ir.goals import Attach
 from xei_lang.ir.skill_plan import Fact
 from xei_lang.lower import lower
 from xei_lang.profiles.model import OperationDefault, Profile, TemplateStep
@@ -44,6 +46,29 @@ def test_what_two_hands_cannot_open() -> None:
     said = refused(("twist_open", {**ARMS, "twist": "left"}))
     assert (said.code, said.message) == ("XEI0728", f"one hand cannot hold `{BOTTLE}` and turn its cap")
     assert said.help == ("say `twist=right`",)
+
+
+@pytest.mark.parametrize(("either", "stated"), [("hold", "twist"), ("twist", "hold")])
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_an_arm_that_is_not_said_is_the_one_that_the_step_does_not_name(
+    either: str, stated: str, side: str
+) -> None:
+    calls = plan(("twist_open", {"object": obj(BOTTLE), either: "either", stated: side}))
+    graph, problems = lower(calls, bench()[0], bench()[1])
+    assert graph is not None, problems
+    taken = [(one.action.object, one.action.arm) for one in graph.goals if isinstance(one.action, Attach)]
+    hands = dict(reversed(taken))
+    other = "right" if side == "left" else "left"
+    assert (hands[BOTTLE], hands[CAP]) == ((side, other) if stated == "hold" else (other, side))
+
+
+def test_strokes_too_many_to_be_made_are_told_where_the_stroke_is_written() -> None:
+    profile = with_stroke(Fraction(1, 1000))
+    said = refused(("twist_open", ARMS), profile=profile)
+    assert (said.code, said.message) == ("XEI0702", "`stroke` of 0.001 deg makes 360000 strokes of a thread")
+    spec = profile.bank.skill("twist_open")
+    assert spec is not None
+    assert said.span == next(item.span for item in spec.parameters if item.name == "stroke")
 
 
 def test_a_cap_is_where_the_vessel_s_state_says() -> None:

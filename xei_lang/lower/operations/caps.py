@@ -16,7 +16,7 @@ from xei_lang.ir.skill_plan import ObjectRef
 from xei_lang.lower.operations.base import Work
 from xei_lang.lower.parameters import Setting, computed_length
 from xei_lang.lower.refusal import refuse
-from xei_lang.profiles.model import LabObject, Profile, Thread
+from xei_lang.profiles.model import MOST_TIMES, LabObject, Profile, Thread
 from xei_lang.quantity import Quantity, quantity
 from xei_lang.quantity.dimension import NUMBER
 from xei_lang.quantity.lengths import exact_mm
@@ -92,7 +92,8 @@ def subject_cap(work: Work) -> Cap:
 
 def strokes_of(work: Work, cap: Cap) -> dict[str, Setting]:
     """The settings `lead`, `stroke_angle` and `more_strokes`: the turns of the thread in even strokes, each
-    at most `stroke`, and how many follow the first. Refuses a stroke that no wrist makes (XEI0702).
+    at most `stroke`, and how many follow the first. Refuses a stroke that no wrist makes, or too many of
+    them (XEI0702).
     """
     stroke = work.layers.merge("stroke", None)
     assert stroke is not None
@@ -107,6 +108,15 @@ def strokes_of(work: Work, cap: Cap) -> dict[str, Setting]:
         )
     turns = cap.thread.turns
     count = max(1, math.ceil(turns * math.tau / most_rad - 1e-9))
+    if count - 1 > MOST_TIMES:
+        refuse(
+            "XEI0702",
+            f"`stroke` of {stroke.text} makes {count} strokes of a thread",
+            stroke.span or work.span,
+            f"expected at least {math.ceil(turns * _WHOLE_DEG / (MOST_TIMES + 1) * 100) / 100:g} deg",
+            (Label(cap.thread.span, f"the thread has {turns:g} turn{'' if turns == 1 else 's'}"),),
+            notes=(f"a template repeats lines up to {MOST_TIMES} times",),
+        )
     angle = Fraction(round(turns * _WHOLE_DEG / count * 1000), 1000)
     why = f"`thread: turns` of {turns:g} in {count} strokes of at most {stroke.text}"
     return {
