@@ -71,8 +71,7 @@ def arms_of(
     step: Step, spec: SkillSpec, scene: Scene, instead: Side | None, nearest: Callable[[], Choice]
 ) -> dict[str, Choice]:
     """The arms of a step's arm arguments, by argument: those that it says, else the one that has the object,
-    the one that another argument leaves, or the nearest. With `instead`, that one takes the place of a single
-    arm, said or not.
+    the one that another argument leaves, or the nearest. `instead` takes the place of any that is said.
     """
     names = [argument.name for argument in spec.args if argument.type == "Arm"]
     stated: dict[str, Side] = {name: side for name in names for side in SIDES if step.arg(name) == side}

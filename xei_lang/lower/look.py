@@ -15,6 +15,7 @@ from xei_lang.diagnostics import Label
 from xei_lang.ir.geometry import Pose, Vec3
 from xei_lang.ir.goals import Parameter
 from xei_lang.ir.skill_plan import ObjectRef
+from xei_lang.lower.in_hands import refuse_unplaced
 from xei_lang.lower.parameters import Setting, computed_length
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.task import Task, refuse_template
@@ -46,7 +47,7 @@ def look_height(task: Task, argument: str, line: TemplateStep) -> tuple[Setting,
         refuse_template(line, f"`{argument}` cannot be looked at", "expected an object")
     known, span = task.profile.object(subject.name), task.span_of(argument)
     if known is None or subject.name not in task.scene.standing:
-        refuse("XEI0710", f"it is not known where `{subject.name}` stands", span, "not in the world")
+        refuse_unplaced(task.scene, subject.name, span, "looked at")
     margin = _margin(task)
     T_base_object = task.scene.T_base_object(known.name)
     near_m = _station_slide(task)

@@ -16,7 +16,7 @@ from xei_lang.quantity.lengths import mm
 
 
 def refuse_written(work: Work, known: LabObject, request: Request) -> None:
-    """Give up a step for whose request no grasp is left, where one written parameter is to blame (XEI0702)."""
+    """Give up a step for whose request no grasp is left, where a written parameter is to blame (XEI0702)."""
     standoff = work.layers.written("standoff")
     if standoff is not None and grasps(replace(request, standoff_m=math.inf)) is not None:
         _refuse(

@@ -28,6 +28,8 @@ def held_of_step(work: Work, when: str, but: str = "") -> tuple[Held, LabObject]
     held = work.scene.held.get(work.arm)
     named = tuple(item.value.name for item in work.step.args if isinstance(item.value, ObjectRef))
     wanted = tuple(name for name in named if name != but)
+    if not wanted:
+        _refuse_unnamed(work, when, but)
     known = work.profile.object(held.object) if held is not None and held.object in wanted else None
     return (held, known) if held is not None and known is not None else _refuse(work, wanted, when, work.arm)
 
@@ -36,6 +38,19 @@ def held_upright(held: Held, origin_m: Vec3) -> Pose:
     """The held object upright with its own origin at a point of the base frame, turned as it was grasped."""
     x, y, _ = held.T_base_grasped.axes()[0]
     return Pose.from_rpy(origin_m, (0.0, 0.0, math.atan2(y, x)))
+
+
+def _refuse_unnamed(work: Work, when: str, but: str) -> NoReturn:
+    """The step names nothing that the hand could hold."""
+    held = work.scene.held.get(work.arm)
+    beside = f" but `{but}`" if but else ""
+    refuse(
+        "XEI0707",
+        f"`{work.step.skill}` names no object{beside} that the {work.arm} hand could hold {when}",
+        work.span,
+        f"expected another object in the {work.arm} hand, found {f'`{held.object}`' if held else 'nothing'}",
+        (held.since,) if held else (),
+    )
 
 
 def _refuse(work: Work, wanted: tuple[str, ...], when: str, side: Side) -> NoReturn:

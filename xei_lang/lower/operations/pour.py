@@ -73,6 +73,16 @@ def plan(work: Work) -> Planned:
 
 def _held(work: Work) -> tuple[Held, LabObject]:
     """What the arm holds, if the step is about it and it is not the target itself."""
+    same = [item.span for item in work.step.args if item.value == ObjectRef(_name(work))]
+    if len(same) > 1:
+        source = next((span for span in same if span != work.span), None)
+        refuse(
+            "XEI0718",
+            f"`{_name(work)}` cannot be poured into itself",
+            work.span,
+            "expected another vessel to pour into",
+            (Label(source, "it is poured from here"),) if source else (),
+        )
     return held_of_step(work, "when it is poured", but=_name(work))
 
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+from xei_lang.lower.in_hands import refuse_unplaced
 from xei_lang.lower.operations.base import Work
-from xei_lang.lower.refusal import refuse
 from xei_lang.profiles.model import LabObject
 
 
 def standing_object(work: Work, name: str) -> LabObject:
-    """The object of this name; refuses one of which it is not known where it stands (XEI0710)."""
+    """The object of this name; refuses one that a hand has, or whose place is not known (XEI0710)."""
     known = work.profile.object(name)
     if known is None or name not in work.scene.standing:
-        refuse("XEI0710", f"it is not known where `{name}` stands", work.span, "not in the world")
+        refuse_unplaced(work.scene, name, work.span, f"used by `{work.step.skill}` where it is")
     return known
