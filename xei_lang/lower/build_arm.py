@@ -21,6 +21,7 @@ from xei_lang.lower.operations.steady import STEADY
 from xei_lang.lower.operations.twist import CAP
 from xei_lang.lower.parameters import ROUNDING_M
 from xei_lang.lower.payload import refuse_heavy
+from xei_lang.lower.reach_bound import refuse_too_far
 from xei_lang.lower.refusal import refuse
 from xei_lang.lower.seats import place_text
 from xei_lang.lower.task import Task, refuse_template
@@ -76,6 +77,7 @@ def _move_to_point(task: Task, line: TemplateStep, path: PathKind, speed: Speed)
     arm = task.arm(line.field("tool"), line)
     planned = task.planned(operation, argument, arm, line)
     aim, way = planned.aims[point], way_of(task, line, path, arm)
+    refuse_too_far(task, aim, planned)
     before = task.scene
     after = before.touch(arm, aim.support, aim.entered).reach(arm, aim.around)
     after = after.hold_at(arm, aim.T_world_held)

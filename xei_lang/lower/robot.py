@@ -1,4 +1,4 @@
-"""What lowering needs of the robot's body: where its shoulders are."""
+"""What lowering needs of the robot's body: where its shoulders are, and how long its arms."""
 
 from __future__ import annotations
 
@@ -34,6 +34,26 @@ def _shoulder(robot: RobotDescription, side: Side) -> Vec3:
         point = joint.T_parent_joint.apply(point)
         joint = by_child.get(joint.parent)
     return point
+
+
+def arm_length_m(profile: Profile, side: Side) -> float:
+    """A bound on how far a tool is from its shoulder: all parts of the arm on one line; infinite for a robot
+    that is not described so far.
+    """
+    return _arm_length(profile.robot, side)
+
+
+@cache
+def _arm_length(robot: RobotDescription, side: Side) -> float:
+    by_child = {item.child: item for item in robot.joints}
+    joint, length = by_child.get(f"openarm_{side}_grasp"), 0.0
+    while joint is not None:
+        # Counted from the second joint's origin, as the shoulder is; the first one may turn that about.
+        if joint.name == f"openarm_{side}_joint2":
+            return length + math.hypot(*joint.T_parent_joint.position_m)
+        length += math.hypot(*joint.T_parent_joint.position_m)
+        joint = by_child.get(joint.parent)
+    return math.inf
 
 
 def reach_direction(profile: Profile, side: Side, T_base_object: Pose) -> tuple[float, float]:
