@@ -95,7 +95,7 @@ def test_what_a_template_may_leave_is_not_doubted(tmp_path, requires, ensures, l
     pairs = [
         ("- " + REQUIRES, "+ " + contract[0]),
         ("- " + ENSURES, "+ " + contract[1]),
-        ("- " + TAKE, "+ " + "\\n      ".join(lines or ["- wait: {for: pour_time}"])),
+        ("- " + TAKE, "+ " + "\\n      ".join(lines or ["- slide_move: {height: standoff}"])),
         ("- arm: {type: Arm", "+ back: {type: Place}\\n      arm: {type: Arm"),
     ]
     edit = "\n".join(("development_profile.yaml", *(line for pair in pairs for line in pair)))

@@ -168,5 +168,31 @@ def of_line(line: TemplateStep) -> Iterator[tuple[str, OperationWords]]:
 
 def of_template(skill: SkillSpec) -> tuple[OperationWords, ...]:
     """The operations that a template names anywhere, each once."""
-    named = dict.fromkeys(item.name for line in skill.template for _, item in of_line(line))
+    return _of_lines(skill.template)
+
+
+def computed_for(skill: SkillSpec, line: TemplateStep, field: str) -> tuple[str, ...]:
+    """The parameters that are computed for a field of a line: by the operations whose points the template
+    goes to, or where the field belongs to no arm, by those that the lines before have planned.
+    """
+    if field in ("for", "height") or (field == "speed" and line.field("tool") is None):
+        before = skill.template[: skill.template.index(line)]
+        return tuple(name for item in _of_lines(before) for name in item.parameters)
+    return _of_points(skill)
+
+
+def computed_for_times(skill: SkillSpec, line: TemplateStep) -> tuple[str, ...]:
+    """The same for how often lines are gone through, of which `line` is the first."""
+    one_arm = [arg.type for arg in skill.args].count("Arm") == 1
+    before = skill.template[: skill.template.index(line)]
+    return _of_points(skill) if one_arm else tuple(name for op in _of_lines(before) for name in op.parameters)
+
+
+def _of_points(skill: SkillSpec) -> tuple[str, ...]:
+    named = [item for line in skill.template for field, item in of_line(line) if field == "at"]
+    return tuple(name for item in named for name in item.parameters)
+
+
+def _of_lines(lines: tuple[TemplateStep, ...]) -> tuple[OperationWords, ...]:
+    named = dict.fromkeys(item.name for line in lines for _, item in of_line(line))
     return tuple(item for item in OPERATIONS if item.name in named)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from xei_lang.diagnostics import Diagnostic
-from xei_lang.profiles.checks.names import OPERATION_PARAMETERS
+from xei_lang.profiles.checks.operations import computed_for_times
+from xei_lang.profiles.checks.template_values import check_times
 from xei_lang.profiles.checks.unknown import unknown
 from xei_lang.profiles.instruments import OWNER
 from xei_lang.profiles.model import MOST_TIMES, SkillSpec
@@ -30,8 +31,11 @@ def check_repeats(skill: SkillSpec, trees: Trees) -> Iterator[Diagnostic]:
                 message = f"`{skill.name}` cannot repeat its lines {repeat.times} times"
                 yield Diagnostic("XEI0623", message, span, label=f"expected 1 .. {MOST_TIMES}")
             continue
+        first = next(step for step in skill.template if step.repeat is repeat)
         numbers = [arg.name for arg in skill.args if arg.type == "Int"]
-        known = [*numbers, *OPERATION_PARAMETERS, *(item.name for item in skill.parameters)]
+        known = [*numbers, *computed_for_times(skill, first), *(item.name for item in skill.parameters)]
         if repeat.times not in known:
             what = f"a `times` for the template of `{skill.name}`"
             yield unknown(what, repeat.times, known, span, "XEI0623")
+        else:
+            yield from check_times(skill, repeat, trees)

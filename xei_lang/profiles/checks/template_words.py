@@ -8,8 +8,7 @@ from types import MappingProxyType
 from typing import get_args
 
 from xei_lang.ir.goals import GoalKind, PathKind
-from xei_lang.profiles.checks.names import OPERATION_PARAMETERS
-from xei_lang.profiles.checks.operations import OPERATIONS
+from xei_lang.profiles.checks.operations import OPERATIONS, computed_for
 from xei_lang.profiles.model import Profile, SkillSpec, TemplateStep
 
 _KINDS = ("object", "cap", "Place")
@@ -97,7 +96,8 @@ def words_of(profile: Profile, skill: SkillSpec, step: TemplateStep, field: str)
         return _of_args(led, kinds)
     if field in ("speed", "width", "height", "for", "angle", "lead", "pitch"):
         heights = _of_args(args, HEIGHTS) if field == "height" else []
-        return [*args, *heights, *OPERATION_PARAMETERS, *(item.name for item in skill.parameters)]
+        computed = computed_for(skill, step, field)
+        return [*args, *heights, *computed, *(item.name for item in skill.parameters)]
     if field == "at" and step.kind == "detach":
         left = [f"{name}.{word}" for name in objects for word in ("stand", "mouth")]
         return [*of_type["Place"], *of_type["Arm"], *left]

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
-from xei_lang.diagnostics import Diagnostic
+from xei_lang.diagnostics import Diagnostic, did_you_mean
 from xei_lang.profiles.checks.repeats import check_repeats
 from xei_lang.profiles.checks.template_needs import check_needs
+from xei_lang.profiles.checks.template_paths import check_path
+from xei_lang.profiles.checks.template_values import MEASURED, check_values, fitting, from_where
 from xei_lang.profiles.checks.template_words import FIELDS, words_of
 from xei_lang.profiles.checks.unknown import unknown
 from xei_lang.profiles.model import Profile, SkillSpec, TemplateStep
@@ -21,12 +24,19 @@ def check_template(profile: Profile, skill: SkillSpec, trees: Trees) -> Iterator
     yield from check_needs(skill, trees)
     for step in skill.template:
         yield from _fields(skill, step)
+        yield from check_path(skill, step, trees)
+        yield from check_values(skill, step, trees)
         for field, value in step.fields:
             known = words_of(profile, skill, step, field) if isinstance(value, str) else None
             if known is not None and str(value).removeprefix(_MINUS[field == "angle"]) not in known:
                 span = trees.of_skill(skill.name, "template", *step.path, step.kind, field)
                 what = f"a `{field}` for the template of `{skill.name}`"
-                yield unknown(what, str(value), known, span, "XEI0623")
+                near = fitting(skill, field, known)
+                found = unknown(what, str(value), near, span, "XEI0623")
+                if field in MEASURED and not did_you_mean(str(value), near):
+                    known_help = found.help if near else ()
+                    found = replace(found, help=(*known_help, from_where(str(value))))
+                yield found
 
 
 def _fields(skill: SkillSpec, step: TemplateStep) -> Iterator[Diagnostic]:
