@@ -85,3 +85,14 @@ def test_strict_is_content_once_all_was_seen_and_asks_nothing_of_furniture():
     assert said(put_on_rack(), everything, strict=True) == []
     onto_table = plan(("place", {"object": obj("tube_1"), "on": slot("table", "")}))
     assert said(onto_table, everything, strict=True) == []
+
+
+def test_what_is_used_and_said_to_be_absent_is_told_with_who_said_so():
+    for name in ("tube_1", "rack_1"):
+        gone = seen(Observation(name, is_absent=True))
+        (one,) = check_use(put_on_rack(), bench(), grounded(gone), (gone,), strict=False)
+        assert (one.code, one.message) == ("XEI0710", "`tube_1` is not there, and `pick` uses it")
+        assert one.notes[0] == f"scene_file test.yaml says that `{name}` is absent"
+    back = seen(at("tube_1", 0.06, -0.3), source="scene_file later.yaml")
+    gone = seen(Observation("tube_1", is_absent=True))
+    assert check_use(put_on_rack(), bench(), grounded(), (gone, back), strict=False) == ()

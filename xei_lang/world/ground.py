@@ -16,11 +16,19 @@ from xei_lang.profiles.model import LabObject, Profile
 from xei_lang.world.frames import frame_tree, start_state
 from xei_lang.world.openings import openings_of
 from xei_lang.world.places import place_text
-from xei_lang.world.sources.belief import OBJECT_REGISTRY, PRIOR, USAGE_PROFILE, beliefs, profile_source
+from xei_lang.world.sources.belief import (
+    OBJECT_REGISTRY,
+    PRIOR,
+    USAGE_PROFILE,
+    Belief,
+    beliefs,
+    profile_source,
+)
 from xei_lang.world.sources.contradictions import Known, contradictions
 from xei_lang.world.sources.faults import observation_faults
 from xei_lang.world.sources.observation import Observations
 from xei_lang.world.sources.standing import Standings
+from xei_lang.world.sources.turned import turned
 
 SOURCES = (USAGE_PROFILE, OBJECT_REGISTRY)
 """The sources that every profile has; what is observed overrides them."""
@@ -42,12 +50,13 @@ def ground(profile: Profile, observed: tuple[Observations, ...] = ()) -> tuple[W
     for item in profile.objects:
         standing = standings.of(item.name)
         if standing is None:
-            found.append(_unplaced(item, observed))
+            found.append(_unplaced(item, believed, observed))
         else:
             known.append(Known(believed[item.name], standing))
     found.extend(contradictions(profile, tuple(known), frames) if observed else ())
     if has_errors(tuple(found)):
         return None, tuple(found)
+    found.extend(turned(tuple(known)))
     state = start_state(profile)
     objects = sorted((_grounded(one, profile) for one in known), key=lambda item: item.name)
     sources = (*SOURCES, *(source.source for source in observed))
@@ -125,7 +134,12 @@ def is_prior(item: WorldObject) -> bool:
     return dict(item.provenance).get("pose", "").startswith(f"{USAGE_PROFILE} {PRIOR}")
 
 
-def _unplaced(item: LabObject, observed: tuple[Observations, ...]) -> Diagnostic:
+def _unplaced(
+    item: LabObject, believed: Mapping[str, Belief], observed: tuple[Observations, ...]
+) -> Diagnostic:
+    gone = _gone(item, believed)
+    if gone is not None:
+        return gone
     asked = ", ".join(source.source for source in observed)
     return Diagnostic(
         "XEI0660",
@@ -138,3 +152,23 @@ def _unplaced(item: LabObject, observed: tuple[Observations, ...]) -> Diagnostic
         ),
         help=("add a `prior`, such as `{frame: table, position: [0.1 m, 0 m, 0 m], confidence: 0.6}`",),
     )
+
+
+def _gone(item: LabObject, believed: Mapping[str, Belief]) -> Diagnostic | None:
+    """What is said of an object that a source has absent, or whose prior has it in one that is."""
+    name, passed = item.name, set[str]()
+    while name in believed and name not in passed:
+        passed.add(name)
+        one = believed[name]
+        if one.absent is not None:
+            within = () if name == item.name else (f"its prior has it in `{name}`",)
+            return Diagnostic(
+                "XEI0660",
+                f"`{item.name}` is not there: {one.absent.source} says that `{name}` is absent",
+                one.absent.span or item.span,
+                label="said here" if one.absent.span else "is this object",
+                notes=(*within, "a later source that sees it brings it back"),
+                help=(f"put `{name}` back and record the scene again, if a protocol is to use it",),
+            )
+        name = one.item.prior.in_object if one.seen is None and one.item.prior is not None else ""
+    return None

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from xei_lang.diagnostics import Diagnostic, Diagnostics
+from xei_lang.diagnostics import Diagnostic, Diagnostics, Label
 from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, SkillPlan, Step, Value
 from xei_lang.ir.world import World, WorldObject
-from xei_lang.profiles.model import Profile
+from xei_lang.profiles.grid import prior_chain
+from xei_lang.profiles.model import LabObject, Profile
 from xei_lang.world.ground import is_prior
-from xei_lang.world.sources.observation import Observations
+from xei_lang.world.sources.observation import Observation, Observations
 
 MIN_CONFIDENCE = 0.5
 """An object that the grounding is less sure of than this is not handled; a plain prior gives 0.6. The one
@@ -59,13 +60,48 @@ def check_use(
     for use in uses(plan, profile):
         item = world.find(use.name)
         known = profile.object(use.name)
-        if item is None or known is None:
+        if known is None:
+            continue
+        if item is None:
+            found.extend(_absent(use, known, profile, observed))
             continue
         if item.confidence < use.needed:
             found.append(_unsure(use, item))
         elif strict and not known.system and is_prior(item):
             found.append(_unseen(use, item, observed))
     return tuple(found)
+
+
+def _absent(
+    use: Use, known: LabObject, profile: Profile, observed: tuple[Observations, ...]
+) -> Iterator[Diagnostic]:
+    """An error where the last that a source says of an object, or of what its prior has it in, is that it is
+    absent.
+    """
+    for holder in prior_chain(profile, known):
+        found = _last(holder.name, observed)
+        if found is None:
+            continue
+        source, one = found
+        if one.is_absent:
+            within = (f"its prior has it in `{holder.name}`",) if holder is not known else ()
+            yield Diagnostic(
+                "XEI0710",
+                f"`{use.name}` is not there, and `{use.step.skill}` uses it",
+                use.step.span,
+                label="uses it",
+                labels=(Label(one.span, f"`{holder.name}` is said to be absent here"),) if one.span else (),
+                notes=(f"{source.source} says that `{holder.name}` is absent", *within),
+                help=("put it back and record the scene again, or use another one",),
+            )
+        return
+
+
+def _last(name: str, observed: tuple[Observations, ...]) -> tuple[Observations, Observation] | None:
+    """What was said last of where an object is, or that it is absent, and by whom."""
+    said = [(source, one) for source in observed for one in source.items if one.name == name]
+    said = [(source, one) for source, one in said if one.is_absent or one.T_frame_object is not None]
+    return said[-1] if said else None
 
 
 def _unsure(use: Use, item: WorldObject) -> Diagnostic:

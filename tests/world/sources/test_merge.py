@@ -7,7 +7,7 @@ import math
 import pytest
 
 from tests.world.bench import bench, world
-from tests.world.sources.scenes import at, codes, free, grounded, seen
+from tests.world.sources.scenes import at, codes, free, grounded, read, scene, seen
 from xei_lang.ir.geometry import Pose
 from xei_lang.profiles.grid import T_object_standing
 from xei_lang.world.ground import ground, is_prior, observers
@@ -129,6 +129,27 @@ def test_an_absent_object_is_nowhere_and_told():
     assert all(found.find(name) is None for name in in_it)
     assert {item.code for item in said} == {"XEI0660"}
     assert len(said) == 1 + len(in_it)
+
+
+def test_who_said_that_it_is_absent_is_told():
+    observed, _ = read(scene("tube_1: {absent: true}"))
+    assert observed is not None
+    _, (one,) = ground(bench(), (observed,))
+    assert one.code == "XEI0660"
+    assert one.message == "`tube_1` is not there: scene_file scene.yaml says that `tube_1` is absent"
+    assert one.span is not None
+    text = scene("tube_1: {absent: true}")
+    assert (one.span.file, text[one.span.start : one.span.end]) == ("scene.yaml", "tube_1")
+    _, said = ground(bench(), (seen(Observation("rack_1", is_absent=True)),))
+    tube = next(one for one in said if one.message.startswith("`tube_1`"))
+    assert tube.notes[0] == "its prior has it in `rack_1`"
+
+
+@pytest.mark.parametrize("name", ["table", "floor", "table_b"])
+def test_furniture_cannot_be_absent(name):
+    world_, (one,) = ground(bench(), (seen(Observation(name, is_absent=True)),))
+    assert world_ is None
+    assert (one.code, one.message) == ("XEI0664", f"`{name}` cannot be absent: it belongs to the room")
 
 
 def test_a_pose_after_an_absence_brings_it_back():

@@ -166,3 +166,20 @@ def test_no_scene_file_is_too_broken_for_a_diagnostic(data):
 def scene_words() -> list[str]:
     text = scene(SOUND)
     return re.findall(r"[\w.\-]+(?: mm| m| deg)?|\W", text)
+
+
+@pytest.mark.parametrize(
+    "numbers",
+    [
+        {0: -1e-4},
+        {35: -0.01},
+        {1: 0.5},
+    ],
+)
+def test_a_covariance_is_symmetric_and_has_no_negative_variance(numbers):
+    values = [numbers.get(index, 0.0) for index in range(36)]
+    line = "beaker_1: {frame: table, position: [80 mm, -330 mm, 0 mm], confidence: 1, covariance: COVARIANCE}"
+    observed, said = read(scene(line.replace("COVARIANCE", str(values))))
+    assert observed is None
+    assert [one.code for one in said] == ["XEI0652"]
+    assert "variances of zero or above" in f"{said[0].message} {said[0].label}"

@@ -56,6 +56,7 @@ ENTRIES = {
     "XEI0661": Entry("an object that is not known surely enough to be used"),
     "XEI0662": Entry("an object that nobody has seen"),
     "XEI0663": Entry("a source of the world that cannot be asked"),
+    "XEI0664": Entry("furniture that a source says is absent"),
     "XEI0665": Entry("a map that cannot be read", "warning"),
     "XEI0666": Entry("a map that is not the one of the profile", "warning"),
     "XEI0667": Entry("a recording of scans that no map can be built from"),

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StringConstraints
 
+from xei_lang.profiles.schema.frames import Covariance
 from xei_lang.profiles.schema.values import (
     AngleVector,
     Fraction01,
@@ -41,7 +42,7 @@ class SceneObjectModel(Model):
     states: dict[Name, Name] = Field(default={})
     size: SizeVector | None = None
     stamp: Stamp | None = None
-    covariance: Annotated[list[float | int], Field(min_length=36, max_length=36)] | None = None
+    covariance: Covariance | None = None
     perception_args: dict[Name, Text] = Field(default={})
     absent: bool = False
 

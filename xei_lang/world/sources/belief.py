@@ -25,15 +25,24 @@ class Seen:
 
 
 @dataclass(frozen=True, slots=True)
+class Absent:
+    """A source that says that an object is not there, and where that is written."""
+
+    source: str
+    span: Span | None
+
+
+@dataclass(frozen=True, slots=True)
 class Belief:
-    """What the sources together say of one object; `seen` is None where only its prior says where it is.
+    """What the sources together say of one object; `seen` is None where only its prior says where it is, or
+    where the last that was said is that it is `absent`.
 
     Each of `confidence`, `states` and `metadata` goes with who said it last.
     """
 
     item: LabObject
     seen: Seen | None
-    is_absent: bool
+    absent: Absent | None
     confidence: float
     confidence_from: str
     states: tuple[tuple[str, str], ...]
@@ -50,16 +59,16 @@ def belief(item: LabObject, observed: tuple[tuple[str, Observation], ...]) -> Be
     """The merge of an object's own entry and what was observed of it, in the order of the sources."""
     own = f"{profile_source(item)} {PRIOR}"
     seen: Seen | None = None
-    is_absent = False
+    absent: Absent | None = None
     confidence, confidence_from = (item.prior.confidence if item.prior else 0.0), own
     states = {state.name: state.initial for state in item.states}
     states_from: dict[str, str] = {}
     metadata = {f"asset.{name}": path or "missing" for name, path in item.assets}
     for source, one in observed:
         if one.is_absent:
-            seen, is_absent = None, True
+            seen, absent = None, Absent(source, one.span)
         if one.T_frame_object is not None:
-            seen, is_absent = Seen(source, one.T_frame_object, one.frame_id, one.span), False
+            seen, absent = Seen(source, one.T_frame_object, one.frame_id, one.span), None
             metadata |= _details(one)
         if one.confidence is not None:
             confidence, confidence_from = one.confidence, source
@@ -70,7 +79,7 @@ def belief(item: LabObject, observed: tuple[tuple[str, Observation], ...]) -> Be
     return Belief(
         item,
         seen,
-        is_absent,
+        absent,
         confidence,
         confidence_from,
         tuple(states.items()),

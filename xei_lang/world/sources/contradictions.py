@@ -10,12 +10,14 @@ from dataclasses import dataclass
 
 from xei_lang.diagnostics import Diagnostic, Label
 from xei_lang.ir.geometry import Pose
-from xei_lang.profiles.checks.overlap import TOUCH_M, Upright, overlap_m, solids_at
+from xei_lang.profiles.checks.convex import TOUCH_M
+from xei_lang.profiles.checks.leaning import leans, turned_text
+from xei_lang.profiles.checks.overlap import Solid, Upright, overlap_m, solids_at
 from xei_lang.profiles.model import Profile
 from xei_lang.quantity.lengths import mm
 from xei_lang.world.places import place_text
 from xei_lang.world.sources.belief import Belief
-from xei_lang.world.sources.settle import HEIGHT_M, leveled
+from xei_lang.world.sources.settle import HEIGHT_M, foot, leveled
 from xei_lang.world.sources.standing import Standing
 
 _CODE = "XEI0658"
@@ -95,17 +97,18 @@ def _below(profile: Profile, one: Known, frames: Mapping[str, Pose]) -> Iterator
         T_world_table = frames.get(name)
         if T_world_table is None:
             continue
-        x, y, z = T_world_table.inverse().apply(one.standing.T_world_object.position_m)
+        x, y, z = foot(one.belief.item, T_world_table.inverse() @ one.standing.T_world_object)
         if lower[0] <= x <= upper[0] and lower[1] <= y <= upper[1] and z < -HEIGHT_M:
-            message = f"`{one.name}` was seen {mm(-z)} below the top of `{name}`"
+            reaches = "would reach" if leans(one.standing.T_world_object) else "was seen"
+            message = f"`{one.name}` {reaches} {mm(-z)} below the top of `{name}`"
             yield _error(one, message, "expected a height of 0 or above")
 
 
 def _overlaps(known: tuple[Known, ...]) -> Iterator[tuple[Known, Known, float]]:
     """Pairs of which one at least was moved by what was seen, with how deep they are in each other.
 
-    What leans a little is taken to be upright; what was put into or onto a thing touches it rightly, and so
-    does furniture the floor.
+    What leans a little is taken to be upright, and what leans more as it is; what was put into or onto a
+    thing touches it rightly, and so does furniture the floor.
     """
     known = tuple(sorted(known, key=lambda one: (bool(one.standing.carried_by), one.name)))
     bodies = [(one, solids_at(one.belief.item, leveled(one.standing.T_world_object))) for one in known]
@@ -123,9 +126,11 @@ def _overlaps(known: tuple[Known, ...]) -> Iterator[tuple[Known, Known, float]]:
                 yield *pair, depth_m
 
 
-def _depth_m(a: Upright, b: Upright) -> float:
-    apart = a.lower_m >= b.upper_m or b.lower_m >= a.upper_m
-    return 0.0 if apart else overlap_m(a, b)
+def _depth_m(a: Solid, b: Solid) -> float:
+    if isinstance(a, Upright) and isinstance(b, Upright):
+        apart = a.lower_m >= b.upper_m or b.lower_m >= a.upper_m
+        return 0.0 if apart else overlap_m(a, b)
+    return overlap_m(a, b)
 
 
 def _carrier(one: Known) -> str:
@@ -169,7 +174,11 @@ def _near(a: _Extent, b: _Extent) -> bool:
 def _error(one: Known, message: str, label: str, other: Known | None = None) -> Diagnostic:
     seen = one.belief.seen
     span = seen.span if seen else None
-    says = [_who(item) for item in (one, other) if item is not None]
+    both = [item for item in (one, other) if item is not None]
+    says = [_who(item) for item in both]
+    says += [
+        f"`{item.name}`: {turned_text(item.standing.T_world_object)}" for item in both if _is_turned(item)
+    ]
     labels = ()
     if other is not None and other.belief.seen is not None and other.belief.seen.span is not None:
         labels = (Label(other.belief.seen.span, f"`{other.name}` was seen here"),)
@@ -177,6 +186,10 @@ def _error(one: Known, message: str, label: str, other: Known | None = None) -> 
     if other is not None and other.belief.seen is None and not other.belief.item.system:
         help_ = f"look for `{other.name}` too, or say that it is absent: only its prior has it there"
     return Diagnostic(_CODE, message, span, label if span else "", labels, tuple(says), (help_,))
+
+
+def _is_turned(one: Known) -> bool:
+    return one.belief.seen is not None and leans(one.standing.T_world_object)
 
 
 def _who(one: Known) -> str:

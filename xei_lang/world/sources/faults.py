@@ -35,11 +35,20 @@ def observation_faults(
         if item is None:
             yield _unknown(observed, "an object of this profile", one.name, names, one.span)
             continue
+        if one.is_absent and item.system:
+            yield _furniture(observed, item, one.span)
         if one.T_frame_object is not None and one.frame_id not in frames:
             yield _unknown(observed, "a frame that stays where it is", one.frame_id, frames, one.span)
         yield from _states(item, one, observed)
         if one.size_m is not None:
             yield from _size(item, one.size_m, one, observed)
+
+
+def _furniture(observed: Observations, item: LabObject, span: Span | None) -> Diagnostic:
+    """Without a table what stands on it would hang in the air, and motion would be planned through it."""
+    message = f"`{item.name}` cannot be absent: it belongs to the room"
+    help_ = "take the line out, or, where it is gone for good, take it out of `object_registry.yaml`"
+    return _told("XEI0664", observed, message, span, "furniture is where the calibration has it", help_)
 
 
 def _states(item: LabObject, one: Observation, observed: Observations) -> Iterator[Diagnostic]:

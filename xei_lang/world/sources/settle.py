@@ -2,7 +2,7 @@
 
 An object that was seen upright, its axis through a slot's bore and its bottom near the slot's floor, stands
 in that slot. Near a named spot it stands there, where it was seen; a cap near its thread is screwed on, in
-the middle of it. On a surface it stands on the surface.
+the middle of it. On a surface it stands on the surface; what leans or lies has its lowest point there.
 """
 
 from __future__ import annotations
@@ -14,6 +14,8 @@ from dataclasses import dataclass
 from xei_lang.ir.geometry import Pose, Vec3
 from xei_lang.ir.skill_plan import PlaceRef
 from xei_lang.profiles import grid as grids
+from xei_lang.profiles.checks.leaning import TILT_RAD
+from xei_lang.profiles.checks.overlap import lowest_m
 from xei_lang.profiles.model import LabObject
 from xei_lang.world.places import accepts, slots
 
@@ -23,8 +25,6 @@ tags at a metre are good for.
 """
 SPOT_M = 0.010
 """What was seen this near to a named spot, along the surface, stands on the spot."""
-TILT_RAD = math.radians(10.0)
-"""What was seen leaning by less stands upright."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,11 +72,34 @@ def settle(item: LabObject, T_world_object: Pose, hosts: Iterator[Host]) -> Sett
     found: list[tuple[int, float, str, Settled]] = []
     for host in hosts:
         T_host_object = host.T_world_host.inverse() @ T_world_object
-        if T_host_object.axes()[2][2] < math.cos(TILT_RAD):
-            continue
-        for rank, distance_m, settled in _candidates(item, host, T_host_object):
+        leans = T_host_object.axes()[2][2] < math.cos(TILT_RAD)
+        candidates = _lying if leans else _candidates
+        for rank, distance_m, settled in candidates(item, host, T_host_object):
             found.append((rank, distance_m, settled.place.object + settled.place.key, settled))
     return min(found, key=lambda one: one[:3])[3] if found else None
+
+
+def foot(item: LabObject, T_frame_object: Pose) -> Vec3:
+    """Where an object touches what is below it: its bottom, or, of what leans, the height of its lowest point
+    below its middle.
+    """
+    if T_frame_object.axes()[2][2] >= math.cos(TILT_RAD):
+        return T_frame_object.position_m
+    x, y, _ = T_frame_object.apply((0.0, 0.0, item.size_m[2] / 2))
+    return (x, y, lowest_m(item, T_frame_object))
+
+
+def _lying(item: LabObject, stand: Host, seen: Pose) -> Iterator[tuple[int, float, Settled]]:
+    """On the top of a host as it was turned, not in a slot or on a spot."""
+    host, (x, y, low) = stand.item, foot(item, seen)
+    off_m = low - host.size_m[2]
+    if _takes(host) and _is_over(host, x, y) and abs(off_m) <= HEIGHT_M:
+        there = Pose((0.0, 0.0, -off_m)) @ seen
+        yield 2, abs(off_m), Settled(host, PlaceRef(host.name, "surface", ""), there)
+
+
+def _is_over(host: LabObject, x: float, y: float) -> bool:
+    return abs(x) <= host.size_m[0] / 2 and abs(y) <= host.size_m[1] / 2
 
 
 def _candidates(item: LabObject, stand: Host, seen: Pose) -> Iterator[tuple[int, float, Settled]]:
@@ -95,8 +118,7 @@ def _candidates(item: LabObject, stand: Host, seen: Pose) -> Iterator[tuple[int,
             screwed = _is_screwed(item, place)
             yield 1, distance_m, Settled(host, place, _upright(seen, *((sx, sy) if screwed else (x, y)), sz))
     top = host.size_m[2]
-    on_it = abs(x) <= host.size_m[0] / 2 and abs(y) <= host.size_m[1] / 2
-    if _takes(host) and on_it and abs(z - top) <= HEIGHT_M:
+    if _takes(host) and _is_over(host, x, y) and abs(z - top) <= HEIGHT_M:
         yield 2, abs(z - top), Settled(host, PlaceRef(host.name, "surface", ""), _upright(seen, x, y, top))
 
 

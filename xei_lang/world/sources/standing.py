@@ -14,7 +14,7 @@ from xei_lang.profiles.grid import T_object_standing
 from xei_lang.profiles.model import LabObject
 from xei_lang.world.places import initial_place
 from xei_lang.world.sources.belief import Belief
-from xei_lang.world.sources.settle import HEIGHT_M, Host, floors_of, is_host, settle
+from xei_lang.world.sources.settle import HEIGHT_M, Host, floors_of, foot, is_host, settle
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +42,7 @@ class Standings:
         self._frames = frames
         self._found: dict[str, Standing | None] = {}
         self._open: set[str] = set()
-        self._hosts = [one for one in beliefs.values() if is_host(one.item) and not one.is_absent]
+        self._hosts = [one for one in beliefs.values() if is_host(one.item) and one.absent is None]
         self._floors = {one.item.name: floors_of(one.item) for one in self._hosts}
         rough = ((one.item.name, self._rough_pose(one.item)) for one in self._hosts)
         self._T_rough_world = {name: pose.inverse() for name, pose in rough if pose is not None}
@@ -59,7 +59,7 @@ class Standings:
         return self._found[name]
 
     def _find(self, known: Belief) -> Standing | None:
-        if known.is_absent:
+        if known.absent is not None:
             return None
         return self._by_sight(known) if known.seen else self._by_prior(known.item)
 
@@ -100,7 +100,8 @@ class Standings:
         if T_world_frame is None:
             return None
         T_world_seen = T_world_frame @ seen.T_frame_object
-        settled = settle(known.item, T_world_seen, self._hosts_near(known.item.name, T_world_seen.position_m))
+        near = self._hosts_near(known.item.name, foot(known.item, T_world_seen))
+        settled = settle(known.item, T_world_seen, near)
         if settled is None:
             return Standing(seen.frame_id, seen.T_frame_object, T_world_seen)
         host = self.of(settled.host.name)
