@@ -24,6 +24,9 @@ from xei_lang.motion.sequence.space import Pair
 
 coal: Any = importlib.import_module("coal")  # ships no type information
 
+_Shapes = tuple[tuple[Any, Any], ...]
+"""A body's shapes for coal, each with its place in the base frame."""
+
 _STEP_M = 0.01
 _SLACK_M = 0.001
 """What a move may be off its line, and more: who falls here would fall there too."""
@@ -39,8 +42,9 @@ def object_touch(context: Context, rehearsal: Rehearsal) -> Pair | None:
         if start is None or end is None or not isinstance(second.goal.action, MoveTo):
             continue
         straight = second.goal.action.path == "linear" and _is_shift(start, end)
+        around = _around(context, second)
         for pose in _between(start, end) if straight else (start, end):
-            touched = _touched(context, rehearsal, second, pose)
+            touched = _touched(context, rehearsal, second, pose, around)
             if touched is not None:
                 return touched
     return None
@@ -69,36 +73,48 @@ def _between(start: Pose, end: Pose) -> Iterator[Pose]:
         yield Pose((x, y, z), start.quaternion)
 
 
-def _touched(context: Context, rehearsal: Rehearsal, moment: Moment, T_base_object: Pose) -> Pair | None:
+def _around(context: Context, moment: Moment) -> tuple[tuple[str, _Shapes], ...]:
+    """What stands at a moment, by name, in the base frame."""
+    found = ((name, context.world.find(name)) for name in moment.snapshot.standing)
+    return tuple(
+        (name, _shapes(item.geometry, moment.snapshot.T_base_object(name)))
+        for name, item in found
+        if item is not None
+    )
+
+
+def _touched(
+    context: Context,
+    rehearsal: Rehearsal,
+    moment: Moment,
+    T_base_object: Pose,
+    around: tuple[tuple[str, _Shapes], ...],
+) -> Pair | None:
     snapshot = moment.snapshot
     held = snapshot.held[rehearsal.chain.arm].object
+    near_m = context.profile.calibration.clearance_m - _SLACK_M
     for name, T_object_own in ((held, Pose()), *snapshot.riders(held)):
+        own = context.world.find(name)
+        if own is None:
+            continue
         may = {other for pair in moment.goal.allowed_contacts if name in pair for other in pair}
-        own, T_base_own = context.world.find(name), T_base_object @ T_object_own
-        for other in snapshot.standing:
-            item = context.world.find(other)
-            if own is None or item is None or other in may:
-                continue
-            if _meet(context, own.geometry, T_base_own, item.geometry, snapshot.T_base_object(other)):
+        shapes = _shapes(own.geometry, T_base_object @ T_object_own)
+        for other, standing in around:
+            if other not in may and _meet(shapes, standing, near_m):
                 return name, other
     return None
 
 
-def _meet(
-    context: Context, a: tuple[Primitive, ...], T_base_a: Pose, b: tuple[Primitive, ...], T_base_b: Pose
-) -> bool:
-    """Whether two bodies come nearer than planning lets them, by more than `_SLACK_M`."""
-    near_m = context.profile.calibration.clearance_m - _SLACK_M
+def _meet(a: _Shapes, b: _Shapes, near_m: float) -> bool:
+    """Whether two bodies come nearer to each other than that."""
     request = coal.DistanceRequest()
-    for one in a:
-        for other in b:
-            places = (_placed(T_base_a @ one.T_object_shape), _placed(T_base_b @ other.T_object_shape))
-            shapes = (coal_shape(one.shape), coal_shape(other.shape))
-            result = coal.DistanceResult()
-            distance = coal.distance(shapes[0], places[0], shapes[1], places[1], request, result)
-            if distance < near_m:
-                return True
-    return False
+    return any(
+        coal.distance(*one, *other, request, coal.DistanceResult()) < near_m for one in a for other in b
+    )
+
+
+def _shapes(geometry: tuple[Primitive, ...], T_base_body: Pose) -> _Shapes:
+    return tuple((coal_shape(one.shape), _placed(T_base_body @ one.T_object_shape)) for one in geometry)
 
 
 def _placed(pose: Pose) -> Any:
