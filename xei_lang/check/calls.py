@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from xei_lang.check.allowed import is_allowed
 from xei_lang.check.amounts import is_nothing
 from xei_lang.check.argument_values import ArgumentValues
 from xei_lang.check.arguments import match_arguments
@@ -67,6 +68,7 @@ class Calls:
         reporter: Reporter,
         units: Mapping[str, Unit],
     ) -> None:
+        self._registry = registry
         self._reporter = reporter
         self._callees = Callees(registry, reporter, units)
         self._contracts = Contracts()
@@ -87,6 +89,8 @@ class Calls:
             formal.spec.name: self._arguments.value(given.get(formal.spec.name), formal, scope, state)
             for formal in contract.formals
         }
+        if not is_allowed(skill, given, values, self._registry, self._reporter):
+            return None
         if not self._slots_accept(contract, given, values):
             return None
         found = tuple(_planned(spec, value, given) for spec, value in _present(contract, values))

@@ -149,7 +149,7 @@ class ObjectModel(Model):
     mass: Mass | None = None
     liquid: LiquidModel | None = None
     states: dict[Name, StateModel] = Field(default={})
-    skills: list[Name] = Field(default=[])
+    skills: list[Name] | None = None
     grasp: dict[Name, OperationValue] = Field(default={})
     slots: SlotsModel | None = None
     spots: dict[Name, SpotModel] = Field(default={})
