@@ -78,3 +78,15 @@ def test_hands_that_open_a_vessel_pass_it_and_its_cap(about: str, name: str, val
     found = refused(OPENING, grasped(about, **{name: value}))
     assert (found.code, found.span) == ("XEI0702", WRITTEN)
     assert f"does not let the jaws pass `{about}`" in found.message
+
+
+def test_jaws_let_go_of_what_they_squeezed_by_its_own_width() -> None:
+    profile = grasped("tube_1", grasp_width="3 mm")
+    graph, problems = lower(put_on_rack(), profile, bench()[1])
+    assert graph is not None, problems
+    opened = [goal.action for goal in graph.goals if goal.kind == "open_gripper"][-1]
+    assert isinstance(opened, Grip)
+    assert opened.opening_m == pytest.approx(0.017 + 2 * 0.008)
+    found = refused(put_on_rack(), grasped("tube_1", grasp_width="3 mm", release_width="16 mm"))
+    assert (found.code, found.message) == ("XEI0702", "`release_width` of 16 mm does not release `tube_1`")
+    assert found.label.startswith("expected more than 17 mm")

@@ -179,7 +179,7 @@ def _attach(task: Task, line: TemplateStep) -> Draft:
         T_world_object,
         task.scene.in_base(T_world_object),
         planned.settings["standoff"].si("Length"),
-        planned.settings["grasp_width"].si("Length"),
+        max(planned.wide_m, planned.settings["grasp_width"].si("Length")),
         planned.floor_m,
         standing.support if standing else carrier,
         Label(task.step.span, f"`{subject.name}` is picked up here"),

@@ -51,9 +51,10 @@ class Held:
     """An object in a hand: the family it was grasped with and where it stood then, in `world` and as the base
     saw it.
 
-    `sunk_m` is how deep it stood in its slot. `touching` names the support that it has not left yet, or
-    reaches at the end of a linear move; empty in the air. `entered` names what it has gone into.
-    `T_world_now` is where it is held still in the air, for what is worked on it there.
+    `grasp_width_m` is how wide it is between the jaws, `sunk_m` how deep it stood in its slot. `touching`
+    names the support that it has not left yet, or reaches at the end of a linear move; empty in the air.
+    `entered` names what it has gone into. `T_world_now` is where it is held still in the air, for what is
+    worked on it there.
     """
 
     object: str

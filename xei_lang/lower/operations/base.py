@@ -83,7 +83,8 @@ class Planned(Record):
     ends; axes and areas by name.
 
     `floor_m` is how deep the object stands in what carries it (from its bottom); `stood` is how it stood
-    before it was taken, to be set down there again.
+    before it was taken, to be set down there again. `wide_m` is how wide what is grasped is between the jaws,
+    which may squeeze it.
     """
 
     settings: Mapping[str, Setting]
@@ -94,6 +95,7 @@ class Planned(Record):
     axes: Mapping[str, Axis] = field(default_factory=dict[str, Axis])
     areas: Mapping[str, Area] = field(default_factory=dict[str, Area])
     stood: Standing | None = None
+    wide_m: float = 0.0
 
 
 @record

@@ -55,6 +55,7 @@ def plan(work: Work) -> Planned:
         },
         family,
         floor_m=sunk_m,
+        wide_m=jaws.closing.width_m,
     )
 
 
