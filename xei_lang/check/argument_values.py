@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from xei_lang.check import arithmetic
 from xei_lang.check.amounts import Amounts, in_range, is_less_than_nothing, is_nothing
+from xei_lang.check.blank import says_something
 from xei_lang.check.contracts import Formal
 from xei_lang.check.evaluate import Evaluator
 from xei_lang.check.expectation import Expectation
@@ -46,6 +47,9 @@ class ArgumentValues:
             and value.kind not in spec.choices
         ):
             return self._wrong_kind_of_place(value, spec, expected, given.value)
+        if spec.type == "String":
+            said = says_something(value, expected.what, given.value.span, self._reporter, spec.span)
+            return value if said else POISON
         if formal.is_amount and is_nothing(value):
             return value
         if is_less_than_nothing(value, spec):

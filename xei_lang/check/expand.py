@@ -15,6 +15,7 @@ from xei_lang.check import (
     measure,
     overlap,
 )
+from xei_lang.check.blank import check_statement_text
 from xei_lang.check.context import Context
 from xei_lang.check.declarations import declare
 from xei_lang.check.labels import Labels
@@ -126,6 +127,7 @@ class Expander:
                 value = self.context.evaluator.value(member.value, scope)
                 unpack(member.names, value, scope, self.context.reporter, member.value.span)
             case Note() | Unmapped():
+                check_statement_text(member, self.context.reporter)
                 self.plan.remark(member, where.origin)
             case Require():
                 conditions.require(self, member, scope, where)
@@ -158,6 +160,7 @@ class Expander:
             case Wait():
                 wait(self, step, action, scope, where)
             case Confirm():
+                check_statement_text(action, self.context.reporter)
                 confirm(self, step, action, where)
             case Do():
                 self.named_block(step, action.body, scope, where)
@@ -180,6 +183,7 @@ class Expander:
             case Measure():
                 measure.measure(self, step, action, scope, where)
             case StopRun():
+                check_statement_text(action, self.context.reporter)
                 endings.stop(self, step, action, where)
             case Keep():
                 keeps.keep(self, step, action, scope, where)

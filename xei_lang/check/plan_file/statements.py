@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from xei_lang.check.blank import says_something
 from xei_lang.check.context import Context
 from xei_lang.check.expectation import Expectation
 from xei_lang.check.plan_file.expressions import AsExpression
@@ -43,4 +44,5 @@ def _value(node: JsonNode, what: str, type_: str, context: Context, state: State
             context.clauses.duration(value, what, Scope(Usage()), state)
         else:
             found = context.evaluator.value(value, Scope(Usage()))
-            context.types.coerce(found, Expectation(what, type_), value, state)
+            found = context.types.coerce(found, Expectation(what, type_), value, state)
+            says_something(found, what, node.span, context.reporter)

@@ -68,6 +68,7 @@ ENTRIES = {
     "XEI0324": Entry("a volume that is asked for and not known"),
     "XEI0325": Entry("a `given` that does not say what is so"),
     "XEI0326": Entry("an object that does not allow what is to be done with it"),
+    "XEI0327": Entry("a text that is empty where it should say something"),
     "XEI0330": Entry("something that two branches use, which may overlap"),
     "XEI0331": Entry("a requirement that does not hold"),
     "XEI0340": Entry("a start that is never ended"),

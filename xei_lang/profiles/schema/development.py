@@ -86,7 +86,7 @@ class ReturnModel(Model):
     max: AnyQuantity | int | float | None = None
 
 
-Fields = dict[Name, str | int | float | bool]
+Fields = dict[Name, Text | int | float | bool]
 GoalLine = dict[Name, Fields]
 """One key, the kind of goal, and the fields of it."""
 
