@@ -14,6 +14,8 @@ from xei_lang.lower.refusal import refuse
 from xei_lang.profiles.model import LabObject
 from xei_lang.quantity.lengths import mm
 
+_ABOVE = "hand and fingers must stay above what the object stands in, here and where it is set down next"
+
 
 def refuse_written(work: Work, known: LabObject, request: Request) -> None:
     """Give up a step for whose request no grasp is left, where a written parameter is to blame (XEI0702)."""
@@ -59,9 +61,7 @@ def _refuse(work: Work, known: LabObject, blamed: Setting, message: str, label: 
         blamed.span or work.span,
         label,
         (Label(known.span, f"`{known.name}` is stated here"),),
-        notes=(
-            "hand and fingers must stay above what the object stands in, here and where it is set down next",
-        ),
+        notes=() if blamed.name == "standoff" else (_ABOVE,),
     )
 
 
