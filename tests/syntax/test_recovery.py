@@ -27,8 +27,8 @@ def parse(text: str) -> tuple[ast.Module, Diagnostics]:
 
 SEEDS = (20, 21, 22, 23)
 """Several: the texts of one are few enough for luck to decide, and change with the project's protocols."""
-MOST_SPURIOUS = 0.065
-"""A file with five mistakes. The aim is 0.05; over the seeds 20 to 59, 4,000 files, it is 0.059."""
+MOST_SPURIOUS = 0.045
+"""A file with five mistakes. Over the seeds 20 to 59, 4,000 files, it is 0.036; over 200 to 239, 0.031."""
 
 
 @pytest.mark.parametrize(("mistakes", "files"), [(1, 50), (5, 100)])
