@@ -42,6 +42,7 @@ ENTRIES = {
     "XEI0646": Entry("a thread that does not fit its cap, its vessel or its rest"),
     "XEI0647": Entry("a template that does not do what its skill ensures"),
     "XEI0648": Entry("an operation that is not given what it needs"),
+    "XEI0649": Entry("a parameter of a skill that nothing reads", "warning"),
     "XEI0650": Entry("the robot's description cannot be read"),
     "XEI0651": Entry("a planning limit that does not fit the robot"),
     "XEI0652": Entry("a scene file that does not follow its form"),

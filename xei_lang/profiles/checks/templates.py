@@ -8,6 +8,7 @@ from dataclasses import replace
 from xei_lang.diagnostics import Diagnostic, did_you_mean
 from xei_lang.profiles.checks.repeats import check_repeats
 from xei_lang.profiles.checks.template_needs import check_needs
+from xei_lang.profiles.checks.template_parameters import check_parameters
 from xei_lang.profiles.checks.template_paths import check_path
 from xei_lang.profiles.checks.template_values import MEASURED, check_values, fitting, from_where
 from xei_lang.profiles.checks.template_words import FIELDS, words_of
@@ -22,6 +23,7 @@ def check_template(profile: Profile, skill: SkillSpec, trees: Trees) -> Iterator
     """Repeats of the template, the fields of its lines, and the names in them (XEI0623)."""
     yield from check_repeats(skill, trees)
     yield from check_needs(skill, trees)
+    yield from check_parameters(skill, trees)
     for step in skill.template:
         yield from _fields(skill, step)
         yield from check_path(skill, step, trees)
