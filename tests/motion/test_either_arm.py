@@ -76,3 +76,12 @@ def test_where_neither_arm_can_both_are_told() -> None:
     assert said.help[0].startswith(
         "the left arm reaches this place: set `bottle_1` down where both arms reach"
     )
+
+
+def test_a_step_of_two_hands_keeps_both_where_one_was_asked_for() -> None:
+    profile, _ = bench()
+    steps = plan(("twist_open", {"object": obj("bottle_2"), "hold": "either", "twist": "left"}))
+    _, timed, problems = planned(steps, stiff(profile, "right"))
+    assert timed is None
+    assert problems[0].message == "the right arm cannot reach `bottle_2`"
+    assert not any("tried as well" in text for text in problems[0].notes)

@@ -68,9 +68,17 @@ def _taken(graph: MotionGoalGraph, refused: Refused) -> tuple[str, Side] | None:
     takes = [
         goal for goal in graph.goals[: last + 1] if isinstance(goal.action, Attach) and goal.action.arm == arm
     ]
-    if not takes:
+    if not takes or _is_bound(graph, takes[-1].step_id):
         return None
     return takes[-1].step_id, "left" if arm == "right" else "right"
+
+
+def _is_bound(graph: MotionGoalGraph, step: str) -> bool:
+    """Whether a step takes things with both hands, one of which somebody asked for: then neither is free."""
+    goals = [goal for goal in graph.goals if goal.step_id == step]
+    hands = {goal.action.arm for goal in goals if isinstance(goal.action, Attach)}
+    told = (item for goal in goals for item in goal.parameters)
+    return len(hands) > 1 and any(item.source == "call" and item.value in ("left", "right") for item in told)
 
 
 def _is_free(graph: MotionGoalGraph, step: str) -> bool:
