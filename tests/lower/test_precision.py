@@ -1,4 +1,6 @@
-"""Tasks that need a place known better than it is: told once a rack, and only where something must fit."""
+"""Tasks that need a place known better than it is: told once for a rack and a size of what goes into it, and
+only where something must fit.
+"""
 
 from __future__ import annotations
 
@@ -25,6 +27,19 @@ def test_each_rack_is_told_of_once() -> None:
         '`tube_1` may miss `rack_1.slot("C1")`',
     ]
     assert "`camera` (2.0 mm, 0.3 deg)" in told[0].notes[0]
+
+
+def test_what_fits_worse_in_the_same_rack_is_told_of_too() -> None:
+    profile, world = bench()
+    tube = profile.object("tube_2")
+    assert tube is not None
+    wider = with_object(profile, "tube_2", replace(tube, size_m=(0.0175, 0.0175, tube.size_m[2])))
+    moves = carried(("tube_1", "rack_2", "A1"), ("tube_2", "rack_2", "A2"), ("tube_3", "rack_2", "A3"))
+    told = list(imprecise_tasks(moves, wider, world))
+    assert [item.message for item in told] == [
+        '`tube_1` may miss `rack_2.slot("A1")`',
+        '`tube_2` may miss `rack_2.slot("A2")`',
+    ]
 
 
 def test_a_spot_asks_for_nothing() -> None:

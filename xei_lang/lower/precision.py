@@ -23,24 +23,25 @@ _CHAMFER = ", or use slots with a wider chamfer"
 
 
 def imprecise_tasks(plan: SkillPlan, profile: Profile, world: World) -> Iterator[Diagnostic]:
-    """One warning for each object that something goes into, at the first step that does so.
+    """One warning for each object that something goes into and each size of what does, at the first step that
+    does so.
 
     A simulation knows where everything is; on hardware such a task is a matter of luck.
     """
-    warned: set[str] = set()
+    warned: set[tuple[str, str | float]] = set()
     benches = Benches.of(world, profile)
     for step in plan.steps:
         for fit in tip_fits(step, benches):
-            if fit.holder not in warned and not fit.found.is_enough:
-                warned.add(fit.holder)
+            if (fit.holder, fit.item) not in warned and not fit.found.is_enough:
+                warned.add((fit.holder, fit.item))
                 yield _warning(step, fit.item, fit.where, fit.found, fit.label)
         for name, place in _insertions(step, profile):
             holder, item = profile.object(place.object), profile.object(name)
-            if holder is None or item is None or holder.name in warned:
+            if holder is None or item is None or (holder.name, max(item.size_m[:2])) in warned:
                 continue
             found = benches.slot(holder, place.key, item)
             if found is not None and not found.is_enough:
-                warned.add(holder.name)
+                warned.add((holder.name, max(item.size_m[:2])))
                 yield _warning(step, name, place_text(place), found, "the slot takes an error of", _CHAMFER)
 
 
