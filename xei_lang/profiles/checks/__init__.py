@@ -5,6 +5,7 @@ file.
 from __future__ import annotations
 
 from xei_lang.diagnostics import Diagnostics, has_errors
+from xei_lang.profiles.checks.arguments import check_arguments
 from xei_lang.profiles.checks.contradictions import check_contradictions
 from xei_lang.profiles.checks.elements import check_elements
 from xei_lang.profiles.checks.frames import check_frames
@@ -32,6 +33,7 @@ def check_profile(profile: Profile, trees: Trees) -> Diagnostics:
         *check_names(profile, trees),
         *check_words(profile, trees),
         *check_skills(profile, trees),
+        *check_arguments(profile, trees),
         *check_quantities(profile, trees),
         *check_owners(profile, trees),
         *check_rules(profile),

@@ -7,6 +7,7 @@ from types import MappingProxyType
 
 from xei_lang.diagnostics import Diagnostic
 from xei_lang.ir.goals import GoalKind
+from xei_lang.profiles.checks.unknown import unknown
 from xei_lang.profiles.model import Profile
 from xei_lang.profiles.trees import Trees
 
@@ -23,12 +24,18 @@ PARTS: Mapping[GoalKind, str] = MappingProxyType(
 """The part that performs a goal, where it is no arm."""
 
 _OF_ARMS = ("arm", "gripper")
+OWNERS = (*_OF_ARMS, *PARTS.values())
+"""Everything that skills may belong to."""
 
 
 def check_owners(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
     """Owners that need an arm where there is none, and goals whose part is not among the owners."""
     bank = profile.bank
     yield from _arms(profile, trees)
+    for index, owner in enumerate(bank.owners):
+        if owner not in OWNERS:
+            span = trees.development.span_of("robot", "owners", index)
+            yield unknown("a part that carries out goals", owner, OWNERS, span)
     prismatic = any(joint.kind == "prismatic" for joint in profile.robot.joints)
     for skill in bank.skills:
         needs_arm = skill.owner in _OF_ARMS and not bank.arms

@@ -32,7 +32,20 @@ def check_rules(profile: Profile) -> Iterator[Diagnostic]:
             calls = [node for node in ast.walk(rule.predicate) if isinstance(node, ast.CallExpr)]
             found = [fault for call in calls for fault in _state(profile, skill, call)]
             yield from found or _values(profile, skill, rule)
+            if not calls and _constant(skill, rule):
+                yield Diagnostic(
+                    "XEI0628",
+                    f"`{rule.text}` is no condition: it says nothing of any argument",
+                    rule.span,
+                    label="holds always, or never",
+                    help=("take it out, or say which state of an argument is meant",),
+                )
         yield from (_no_condition(rule, "`requires` says what holds before") for rule in _changes(skill))
+
+
+def _constant(skill: SkillSpec, rule: SkillRule) -> bool:
+    names = [node.id for node in ast.walk(rule.predicate) if isinstance(node, ast.Name)]
+    return not any(skill.arg(name) for name in names)
 
 
 def _changes(skill: SkillSpec) -> Iterator[SkillRule]:
