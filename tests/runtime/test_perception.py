@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import pytest
 
 from tests.runtime.looking import AWAY, CARRIED, LOOK, Ran, Said, compiled, looks, ran, scene, scenes, truth
+from tests.world.perception.views import bench
 from xei_lang.ir.geometry import Pose
 from xei_lang.world.sources import Observation
 
@@ -152,6 +154,86 @@ def test_what_stands_in_a_rack_is_where_the_rack_is_seen() -> None:
 def test_what_says_too_little_stops_the_run(lines, what: str, code: str, said: str) -> None:
     done, goal = of_a_look(*lines)
     assert said in stopped(done, goal, "world_grounding", what, code)
+
+
+BEAKER = "beaker_1: {frame: table, position: [80 mm, -330 mm, 0 mm], confidence: 0.9}"
+AT_SPOT = BEAKER.replace("-330 mm", "330 mm")
+
+
+def test_a_bystander_in_its_place_is_kept_in_the_trace() -> None:
+    done, goal = of_a_look(RACK, TABLE, BEAKER)
+    assert done.result.status == "succeeded", done.result
+    assert [item["name"] for item in done.of(goal)["perception"]["seen"]] == ["table", "rack_1", "beaker_1"]
+
+
+@pytest.mark.parametrize(
+    ("line", "code", "said"),
+    [
+        (AT_SPOT, "XEI0941", "`beaker_1` stands 660.0 mm and 0.00 deg from where the plan has it"),
+        (BEAKER.replace("-330 mm", "-310 mm"), "XEI0941", "`beaker_1` stands 20.0 mm"),
+        (BEAKER.replace(" 0 mm]", " -200 mm]"), "XEI0658", "`beaker_1` was seen 200 mm below the top of"),
+        (
+            BEAKER.replace("80 mm, -330 mm", "120 mm, -135 mm"),
+            "XEI0658",
+            "`rack_1` would stand in each other",
+        ),
+        (
+            BEAKER.replace("0 mm]", "0 mm], rpy: [180 deg, 0 deg, 0 deg]"),
+            "XEI0658",
+            "would reach 95 mm below",
+        ),
+    ],
+)
+def test_a_bystander_elsewhere_stops_the_run(line: str, code: str, said: str) -> None:
+    done, goal = of_a_look(RACK, TABLE, line)
+    assert said in stopped(done, goal, "world_grounding", "object pose", code)
+
+
+def test_a_thing_that_the_plan_was_made_without_stops_the_run() -> None:
+    given = compiled(LOOK)
+    objects = tuple(item for item in given.world.objects if item.name != "beaker_1")
+    given = replace(given, world=replace(given.world, objects=objects))
+    done = ran(given, scenes(given, scene(RACK, BEAKER)))
+    message = stopped(done, looks(given)[0], "world_grounding", "object pose", "XEI0941")
+    assert message == "`beaker_1` is there, and the plan was made for a world without it"
+
+
+CARRYING = """protocol carrying {
+  profile "openarm_bench"
+  pick(object=tube_3, arm=right)
+  look_at(target=rack_1)
+  insert(object=tube_3, into=rack_1.slot("C3"))
+}
+"""
+
+
+def test_what_stands_where_something_will_be_set_down_is_told_so() -> None:
+    """A tube in the slot that the next step fills; and the one that the hand should have, left behind."""
+    given, rack = compiled(CARRYING), scene(RACK).observe(bench())[0]
+    assert rack is not None
+    there = Pose.from_rpy((0.12 + 0.06, -0.135 - 0.03, 0.005), (0.0, 0.0, 0.0))
+    for seen, said, note in (
+        (Observation("tube_7", there, "table", 0.9), "`tube_7` stands", "will set `tube_3` down there"),
+        (Observation("tube_3", truth().find("tube_3").T_frame_object, "table", 0.9),
+         "`tube_3` stands where it was taken from, and the run has it in the right hand", "is empty"),
+    ):  # fmt: skip
+        done = ran(given, scenes(given, Said((*rack.items, seen))))
+        message = stopped(done, looks(given)[0], "world_grounding", "object pose", "XEI0941")
+        assert message.startswith(said)
+        assert note in done.result.diagnostics[0].notes[1]
+    in_hand = Observation("tube_3", there @ Pose((0.0, 0.0, 0.3)), "table", 0.9)
+    assert ran(given, scenes(given, Said((*rack.items, in_hand)))).result.status == "succeeded"
+
+
+def test_a_scene_file_without_the_table_is_told_to_name_it() -> None:
+    given = compiled('protocol drive {\n  profile "openarm_bench"\n  nav_to(station=bench_b)\n}\n')
+    (goal,) = looks(given)
+    done = ran(given, scenes(given, scene(RACK)))
+    message = stopped(done, goal, "world_grounding", "frame", "XEI0942")
+    assert message == "nothing that tells where `table_b` is was seen"
+    line = "table_b: {frame: table_b, position: [0.3 m, 0 m, -0.85 m], confidence: 0.9}"
+    assert f"`{line}`" in done.of(goal)["help"]
+    assert ran(given, scenes(given, scene(RACK, line))).result.status == "succeeded"
 
 
 def test_a_goal_for_which_nothing_was_recorded_stops_the_run() -> None:

@@ -58,19 +58,27 @@ def holder(world: World, name: str) -> str:
     return item.place.partition(".")[0] if item is not None else ""
 
 
+def stood(given: Handoffs, state: RunState, name: str) -> WorldObject | None:
+    """An object where it stood last: before it was taken up, if it was."""
+    item = given.world.find(name)
+    return None if item is None else _standing(given, state, item)
+
+
 def _stands(given: Handoffs, state: RunState) -> Iterator[WorldObject]:
-    world, carried = given.world, state.carried()
-    for item in world.objects:
-        if item.name in carried:
-            continue
-        if item.name not in state.placed:
-            yield item
-            continue
-        # What rides on another object is placed with it, time and again.
-        epoch, T_base_item = state.placed[item.name]
-        T_world_item = _epoch(given, epoch).T_world_base @ T_base_item
-        carrier = state.riding.get(item.name, "")
-        yield replace(item, T_frame_object=T_world_item, frame_id="world", place="", fastened_to=carrier)
+    carried = state.carried()
+    for item in given.world.objects:
+        if item.name not in carried:
+            yield _standing(given, state, item)
+
+
+def _standing(given: Handoffs, state: RunState, item: WorldObject) -> WorldObject:
+    if item.name not in state.placed:
+        return item
+    # What rides on another object is placed with it, time and again.
+    epoch, T_base_item = state.placed[item.name]
+    T_world_item = _epoch(given, epoch).T_world_base @ T_base_item
+    carrier = state.riding.get(item.name, "")
+    return replace(item, T_frame_object=T_world_item, frame_id="world", place="", fastened_to=carrier)
 
 
 def _epoch(given: Handoffs, index: int) -> Epoch:

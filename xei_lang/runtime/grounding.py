@@ -21,6 +21,7 @@ from xei_lang.runtime.handoffs import Handoffs
 from xei_lang.runtime.perception import Perception
 from xei_lang.runtime.seen_apart import Apart, docked, frame_apart, object_apart
 from xei_lang.runtime.state import RunState
+from xei_lang.runtime.unexpected import bystanders
 from xei_lang.world.perception.seen import Seen
 from xei_lang.world.perception.service_fault import ServiceFault
 from xei_lang.world.sources.faults import observation_faults
@@ -96,6 +97,7 @@ def ground_again(given: Handoffs, state: RunState, goal: MotionGoal, perception:
         _frame_doubt(sight, found)
         or _object_doubt(sight, found)
         or _untold(sight, found)
+        or _bystander_doubt(sight, found, given, state)
         or Grounded(sight.record(grounded=True))
     )
 
@@ -169,6 +171,18 @@ def _object_doubt(sight: _Sight, found: Seen) -> Grounded | None:
     return None
 
 
+def _bystander_doubt(sight: _Sight, found: Seen, given: Handoffs, state: RunState) -> Grounded | None:
+    """Where something that no goal to come handles is in another place than motion was planned around."""
+    judged = frozenset((*_bodies(sight), *(need.name for need in sight.needed)))
+    from_s = next(timed.start_s for timed in given.timed.goals if timed.id == sight.goal.id)
+    for one in bystanders(given, state, sight.expected, found, judged, from_s):
+        if one.apart is not None:
+            sight.apart.append(one.apart)
+        if one.message:
+            return sight.stop("object pose", "world_grounding", one.code, one.message, one.help, one.note)
+    return None
+
+
 def _stop_object(sight: _Sight, code: str, message: str, help: str) -> Grounded:
     return sight.stop("object pose", "world_grounding", code, message, help)
 
@@ -194,5 +208,17 @@ def _untold(sight: _Sight, found: Seen) -> Grounded | None:
             return _stop_object(sight, _UNTOLD, message, help_)
     if not sight.by:
         message = f"nothing that tells where `{sight.frame}` is was seen"
-        return sight.stop("frame", "world_grounding", _UNTOLD, message, "look whether its tags are in view")
+        return sight.stop("frame", "world_grounding", _UNTOLD, message, _where_to_look(sight))
     return None
+
+
+def _where_to_look(sight: _Sight) -> str:
+    """What makes a source tell where the frame is: tags in a picture, a line in a scene file."""
+    bodies = _bodies(sight)
+    if not sight.source.startswith("scene_file") or not bodies:
+        return "look whether its tags are in view"
+    body = sight.expected.find(bodies[0])
+    assert body is not None
+    at = ", ".join(f"{round(value, 4) + 0.0:g} m" for value in body.T_frame_object.position_m)
+    line = f"{body.name}: {{frame: {body.frame_id}, position: [{at}], confidence: 0.9}}"
+    return f"add to the scene file where `{body.name}` was seen, which is `{line}` if it is in its place"
