@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from types import UnionType
 from typing import Any, Union, get_args, get_origin
 
@@ -36,6 +37,10 @@ _COUNTED = {
     "string_too_long": "at most {max_length} letters",
 }
 
+_WORD = re.compile(r"'([^']*)'")
+_LISTED = 8
+"""So many words are listed in a headline."""
+
 
 def explain(error: ValidationError, root: Node, model: type[BaseModel]) -> Diagnostics:
     """One diagnostic for each fault; of the branches of a union, the first that speaks."""
@@ -44,7 +49,8 @@ def explain(error: ValidationError, root: Node, model: type[BaseModel]) -> Diagn
     for details in error.errors(include_url=False):
         diagnostic = _explain_one(details, root, model)
         place = (diagnostic.span, diagnostic.code)
-        if place not in seen:
+        is_no_quantity = diagnostic.code == "XEI0609" and (diagnostic.span, "XEI0610") in seen
+        if place not in seen and not is_no_quantity:
             seen.add(place)
             found.append(diagnostic)
     return tuple(found)
@@ -150,6 +156,17 @@ def _wrong_value(details: ErrorDetails, path: Path, root: Node) -> Diagnostic:
             f"{shown if node.kind == 'scalar' else name} {reason}",
             span,
             label=f"expected {wanted}",
+        )
+    words = _WORD.findall(str(details.get("ctx", {}).get("expected", "")))
+    if details["type"] == "literal_error" and len(words) > _LISTED:
+        near = did_you_mean(str(node.scalar), words)
+        known = "known are " + ", ".join(f"`{word}`" for word in words)
+        return Diagnostic(
+            "XEI0609",
+            f"{shown} is no {name}",
+            root.span_of(*path),
+            label=f"expected one of {len(words)} words",
+            help=(f"did you mean `{near[0]}`?" if near else known,),
         )
     reason = reason.removeprefix("be ")
     return Diagnostic(
