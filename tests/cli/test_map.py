@@ -73,6 +73,16 @@ def test_a_bench_without_a_map_has_none_to_show(lab: Path) -> None:
     assert "has no map" in ran.err and "xei map build" in ran.err
 
 
+def test_a_map_with_a_gap_is_told_what_it_lacks(lab: Path) -> None:
+    path = next((lab / "profiles").glob("*/calibration_profile.yaml"))
+    text = path.read_text(encoding="utf-8")
+    assert text.count("yaml: null") == 1
+    path.write_text(text.replace("yaml: null", "yaml: map/lab.yaml"), encoding="utf-8")
+    ran = xei("map", "show", cwd=lab)
+    assert ran.code == 1
+    assert "has `map` without `image` and `sha256`" in ran.err
+
+
 def test_files_of_another_map_are_told_with_their_hash(lab: Path) -> None:
     folder = lab / "profiles" / "openarm_bench" / "map"
     put_in(lab, xei("map", "build", "drive.jsonl", "-o", str(folder), cwd=lab).out)

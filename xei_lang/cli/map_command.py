@@ -149,8 +149,14 @@ def show_map(*, profile: str | None, output: Path | None, quiet: bool, color: st
     lab = open_lab(profile, colored)
     named = lab.calibration.map
     if named is None or not named.is_named:
-        message = f"the profile `{lab.name}` has no map"
+        keys = ("yaml", "image", "sha256")
+        gaps = [f"`{key}`" for key in keys if named is not None and not getattr(named, key)]
+        started = 0 < len(gaps) < len(keys)
+        what = f"`map` without {' and '.join(gaps)}" if started else "no map"
+        message = f"the profile `{lab.name}` has {what}"
         help_ = "record a drive, and see `xei map build --help`"
+        if started:
+            help_ = f"name the files of one map, with their digest: {', '.join(keys)}; or {help_}"
         show((Diagnostic("XEI0665", message, named.span if named else None, help=(help_,)),), {}, colored)
         sys.exit(INPUT_HAS_ERRORS)
     from xei_lang.world.ground import ground

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from xei_lang.diagnostics import Diagnostic, Label, Span
 from xei_lang.profiles.checks.unknown import unknown
 from xei_lang.profiles.grasp_words import ALIASES, CHOICES, parameter_of
-from xei_lang.profiles.model import LabObject, OperationDefault, Profile
+from xei_lang.profiles.model import LabObject, OperationDefault, Profile, Tag
 from xei_lang.profiles.trees import Trees
 
 OPERATION_PARAMETERS = (
@@ -55,6 +55,9 @@ OPERATION_PARAMETERS = (
     "wipe_height",
 )
 """What the planner of operations computes; a skill bank may add its own under `parameters`."""
+
+TAGS = {"tag16h5": 30, "tag25h9": 35, "tag36h11": 587}
+"""How many tags the families have; their ids begin with 0."""
 
 
 def check_names(profile: Profile, trees: Trees) -> Iterator[Diagnostic]:
@@ -106,6 +109,19 @@ def _unique(profile: Profile) -> Iterator[Diagnostic]:
         if tag.id in tags:
             yield _twice(f"tag {tag.id}", tag.span, tags[tag.id], "a tag")
         tags.setdefault(tag.id, tag.span)
+        yield from _beyond(tag, profile.calibration.apriltags.family)
+
+
+def _beyond(tag: Tag, family: str) -> Iterator[Diagnostic]:
+    last = TAGS[family] - 1
+    if tag.id > last:
+        yield Diagnostic(
+            "XEI0620",
+            f"`{family}` has no tag {tag.id}",
+            tag.span,
+            label=f"expected an id of 0 .. {last}",
+            help=("read the id off the sheet that it was printed from",),
+        )
 
 
 def _twice(name: str, span: Span, first: Span, what: str) -> Diagnostic:

@@ -27,7 +27,9 @@ from xei_lang.profiles.schema.values import (
     Text,
     Torque,
     Turn,
+    quantity_error,
 )
+from xei_lang.quantity import Quantity
 
 
 class LimitModel(Model):
@@ -118,11 +120,22 @@ class MapModel(Model):
     history: Annotated[list[EarlierMapModel], Field(max_length=1000)] = Field(default=[])
 
 
+_LARGEST_TAG_M = 1.0
+
+
+def _tag_size(size: Quantity) -> Quantity:
+    if size.si > _LARGEST_TAG_M:
+        raise quantity_error(
+            "a tag of more than a metre is a slip of the unit", "write its black edge, such as `50 mm`"
+        )
+    return size
+
+
 class TagModel(Model):
     """One AprilTag: the pose of its centre in a frame, z out of the paper."""
 
     id: Annotated[int, Field(ge=0)]
-    size: Size
+    size: Annotated[Size, AfterValidator(_tag_size)]
     frame: Name
     position: LengthVector
     rpy: AngleVector
