@@ -10,6 +10,7 @@ from xei_lang.profiles.checks.operations import DIRECTIONS, OperationWords, of_l
 from xei_lang.profiles.checks.unknown import unknown
 from xei_lang.profiles.model import ArgSpec, SkillSpec, TemplateStep
 from xei_lang.profiles.trees import Trees
+from xei_lang.quantity import TYPE_DIMENSIONS
 
 
 def check_needs(skill: SkillSpec, trees: Trees) -> Iterator[Diagnostic]:
@@ -22,16 +23,30 @@ def check_needs(skill: SkillSpec, trees: Trees) -> Iterator[Diagnostic]:
                 if name not in told and not _given(skill, operation, name):
                     told.add(name)
                     yield _missing(skill, operation, name, (line, field), span)
-            direction = skill.arg("direction") if "direction" in operation.called else None
-            if direction is not None and "direction" not in told:
-                told.add("direction")
-                yield from _directions(skill, direction, trees)
+                elif name not in told:
+                    told.add(name)
+                    yield from _mistyped(skill, operation, name, trees)
 
 
 def _given(skill: SkillSpec, operation: OperationWords, name: str) -> bool:
     if skill.arg(name) is not None:
         return True
     return name in operation.needs and any(item.name == name for item in skill.parameters)
+
+
+def _mistyped(skill: SkillSpec, operation: OperationWords, name: str, trees: Trees) -> Iterator[Diagnostic]:
+    """An argument of another type than the operation reads; words may be of any type that has them."""
+    arg, type_ = skill.arg(name), operation.called.get(name) or operation.needs[name]
+    if arg is not None and type_ == "choice":
+        yield from _directions(skill, arg, trees)
+    elif arg is not None and type_ in TYPE_DIMENSIONS and arg.type != type_:
+        yield Diagnostic(
+            "XEI0610",
+            f"`{name}` of `{skill.name}` is of type {arg.type}, which is no {type_}",
+            arg.span,
+            label=f"expected the type {type_}, which `{operation.name}` reads",
+            help=(f"write `type: {type_}`, or name the argument otherwise",),
+        )
 
 
 def _missing(
