@@ -212,6 +212,15 @@ def screen_with(center: tuple[float, float], size: tuple[float, float]) -> Profi
     return with_object(profile, "incubator_screen", replace(screen, elements=(element,)))
 
 
+def on_face(center: tuple[float, float], size: tuple[float, float]) -> bool:
+    """Whether the whole element lies on the screen, to a micrometre."""
+    face = found(bench()[0], "incubator_screen").size_m[1:]
+    return all(
+        half - 1e-6 <= middle <= long - half + 1e-6
+        for middle, half, long in zip(center, (size[0] / 2, size[1] / 2), face, strict=True)
+    )
+
+
 @given(SCREENS, SHARES, SHARES, st.floats(0.004, 0.02), st.floats(0.004, 0.02), SIDES)
 @settings(max_examples=40, deadline=None)
 def test_a_tap_comes_down_the_elements_normal_or_aslant_and_ends_on_it(
@@ -223,6 +232,10 @@ def test_a_tap_comes_down_the_elements_normal_or_aslant_and_ends_on_it(
     scene = Scene.of(moved(bench()[1], "incubator_screen", T_world_screen), profile)
     step = step_of("tap", {"screen": obj("incubator_screen"), "element": "spot", "arm": arm})
     work = work_of(step, obj("incubator_screen"), "incubator_screen", scene, arm, profile)
+    if not on_face(center, (width, height)):
+        with pytest.raises(Refusal, match="is not on the face"):
+            TAP.plan(work)
+        return
     planned = TAP.plan(work)
     ends, starts = fingertips(scene, planned, "tap"), fingertips(scene, planned, "tap_above")
     straight = 0
@@ -251,7 +264,7 @@ def test_a_swipe_stays_on_the_screen_or_is_refused(
     step = step_of("swipe", {**args, "distance": distance})
     work = work_of(step, obj("incubator_screen"), "incubator_screen", scene, arm, profile)
     room = {"left": center[0], "right": face_w - center[0], "up": face_h - center[1], "down": center[1]}
-    if distance.si > room[direction]:
+    if distance.si > room[direction] or not on_face(center, (0.01, 0.01)):
         with pytest.raises(Refusal) as refused:
             SWIPE.plan(work)
         assert refused.value.diagnostic.code == "XEI0720"
