@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 
 import pytest
 
 from tests.lower.plans import obj, plan, put_on_rack, slot
 from tests.world.bench import bench
 from tests.world.sources.scenes import at, grounded, seen
+from xei_lang.ir.geometry import Pose
 from xei_lang.ir.skill_plan import SkillPlan
 from xei_lang.profiles.model import Profile
 from xei_lang.world.sources import Observation, Observations
@@ -96,3 +98,11 @@ def test_what_is_used_and_said_to_be_absent_is_told_with_who_said_so():
     back = seen(at("tube_1", 0.06, -0.3), source="scene_file later.yaml")
     gone = seen(Observation("tube_1", is_absent=True))
     assert check_use(put_on_rack(), bench(), grounded(), (gone, back), strict=False) == ()
+
+
+def test_what_lies_is_not_handled():
+    lying = Pose.from_rpy((0.06, 0.29, 0.0085), (0.0, math.pi / 2, 0.0))
+    there = seen(Observation("tube_1", lying, "table", 0.9))
+    assert said(put_on_rack(), there) == ["XEI0632 `tube_1` lies on its side, and `pick` takes it to stand"]
+    look = plan(("look_at", {"target": obj("tube_1")}))
+    assert said(look, there) == []

@@ -6,17 +6,23 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from xei_lang.diagnostics import Diagnostic, Diagnostics, Label
+from xei_lang.ir.geometry import Pose
 from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, SkillPlan, Step, Value
 from xei_lang.ir.world import World, WorldObject
+from xei_lang.profiles.checks.leaning import lean_text, leans, turned_text
 from xei_lang.profiles.grid import prior_chain
 from xei_lang.profiles.model import LabObject, Profile
 from xei_lang.world.ground import is_prior
 from xei_lang.world.sources.observation import Observation, Observations
+from xei_lang.world.sources.turned import should_stand
 
 MIN_CONFIDENCE = 0.5
 """An object that the grounding is less sure of than this is not handled; a plain prior gives 0.6. The one
 default of all skills, at compilation and before a run.
 """
+
+_HANDS_OFF = ("perceive", "slide_move", "nav_to_pose", "wait", "confirm")
+"""Goals with which no hand comes near an object."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +75,35 @@ def check_use(
             found.append(_unsure(use, item))
         elif strict and not known.system and is_prior(item):
             found.append(_unseen(use, item, observed))
-    return tuple(found)
+    return (*found, *_leaning(plan, profile, world))
+
+
+def _leaning(plan: SkillPlan, profile: Profile, world: World) -> Iterator[Diagnostic]:
+    """An error for the first step in which arms handle an object that should stand and does not."""
+    told: set[str] = set()
+    for step in plan.steps:
+        skill = profile.bank.skill(step.skill)
+        if skill is None or all(line.kind in _HANDS_OFF for line in skill.template):
+            continue
+        for name in (name for argument in step.args for name in _objects(argument.value)):
+            known = profile.object(name)
+            if known is None or name in told or world.find(name) is None or not should_stand(known):
+                continue
+            pose = world.T_world_object(name)
+            if leans(pose):
+                told.add(name)
+                yield _not_upright(step, name, pose)
+
+
+def _not_upright(step: Step, name: str, pose: Pose) -> Diagnostic:
+    return Diagnostic(
+        "XEI0632",
+        f"`{name}` {lean_text(pose)}, and `{step.skill}` takes it to stand",
+        step.span,
+        label="handles it",
+        notes=(turned_text(pose), "grasps and places are those of a thing that stands"),
+        help=("put it upright and look again, or correct how it is turned: quaternions are x, y, z, w",),
+    )
 
 
 def _absent(

@@ -28,6 +28,7 @@ ENTRIES = {
     "XEI0629": Entry("an argument of a skill that nothing uses", "warning"),
     "XEI0630": Entry("frames that do not form one tree"),
     "XEI0631": Entry("a mesh or a point cloud that cannot be read"),
+    "XEI0632": Entry("an object that is handled and does not stand upright"),
     "XEI0633": Entry("a mesh or a point cloud in a unit that is not stated, or in another"),
     "XEI0634": Entry("a mesh or a point cloud whose unit its object's shape tells", "warning"),
     "XEI0635": Entry("a mesh or a point cloud that does not stand on its object's frame"),

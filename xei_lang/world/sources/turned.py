@@ -14,7 +14,7 @@ def turned(known: tuple[Known, ...]) -> Iterator[Diagnostic]:
     """A warning for each vessel, and each object whose prior stands upright, that was seen otherwise."""
     for one in known:
         seen, pose = one.belief.seen, one.standing.T_world_object
-        if seen is None or one.belief.item.system or not leans(pose) or not _should_stand(one.belief.item):
+        if seen is None or one.belief.item.system or not leans(pose) or not should_stand(one.belief.item):
             continue
         said_by = () if seen.span else (f"said by {seen.source}",)
         note = "grasps and what a vessel holds go by an object's own frame, z up as it is used"
@@ -31,7 +31,8 @@ def turned(known: tuple[Known, ...]) -> Iterator[Diagnostic]:
         )
 
 
-def _should_stand(item: LabObject) -> bool:
+def should_stand(item: LabObject) -> bool:
+    """Whether it is a vessel, or the profile does not itself have it lie."""
     prior = item.prior
     lies_by_prior = prior is not None and not prior.in_object and leans(prior.T_frame_object)
     return item.liquid is not None or not lies_by_prior
