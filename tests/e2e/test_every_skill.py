@@ -43,6 +43,7 @@ def test_it_compiles_and_runs_dry(path: Path) -> None:
     request, outcome = outcome_of(path, ALL)
     assert outcome.stopped_at is None, outcome.diagnostics
     assert outcome.made.timed is not None and outcome.made.graph is not None
+    assert [item.message for item in outcome.diagnostics if item.code == "XEI0810"] == []
     answers = Answers({"the lamp is on": True})
     given = Compiled.of(request.source, outcome.made).run_inputs()
     result = run(given, "dry-run", answers, lambda _event: None)

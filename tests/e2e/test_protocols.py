@@ -51,6 +51,12 @@ def test_it_compiles_to_motion_that_the_verifier_accepts(path: Path) -> None:
 
 
 @every_protocol
+def test_its_steps_take_what_their_skills_declare(path: Path) -> None:
+    _, outcome = compiled(path)
+    assert [item.message for item in outcome.diagnostics if item.code == "XEI0810"] == []
+
+
+@every_protocol
 def test_every_representation_is_sound_between_its_passes(path: Path) -> None:
     made = made_of(path)
     assert made.plan is not None and made.graph is not None

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from xei_lang.diagnostics import Span
 from xei_lang.ir.families import Family
@@ -34,18 +33,12 @@ class Assembly:
         after: tuple[str, ...],
         before: Scene,
         drafts: tuple[Draft, ...],
-        max_duration_s: float = math.inf,
     ) -> None:
-        """Append a step's goals. A goal belongs to the epoch that it starts in; `max_duration_s` bounds
-        each.
-        """
+        """Append a step's goals. A goal belongs to the epoch that it starts in."""
         last = tuple(dict.fromkeys(goal for step in after for goal in self.ends.get(step, ())))
         scene = before
         for number, draft in enumerate(drafts, start=1):
             goal = _goal(f"{step_id}/{number}", step_id, span, scene, draft)
-            goal = replace(
-                goal, max_duration_s=max(goal.min_duration_s, min(goal.max_duration_s, max_duration_s))
-            )
             self.goals.append(goal)
             self.edges.extend((earlier, goal.id) for earlier in last)
             last, scene = (goal.id,), draft.scene

@@ -90,8 +90,7 @@ def _lower_step(
     if task.scene.epoch.index > scene.epoch.index:
         drafts += _arrive(task)
     assembly.families.extend(task.families)
-    longest_s = step.duration_s[1] or spec.duration_s[1]
-    assembly.add(step.step_id, step.span, after=after, before=scene, drafts=drafts, max_duration_s=longest_s)
+    assembly.add(step.step_id, step.span, after=after, before=scene, drafts=drafts)
     return task.scene
 
 

@@ -140,10 +140,17 @@ def _plan(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
 
 def _verify(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
     """`TimedPlan` against everything that it must keep, by code that shares nothing with the planner."""
-    from xei_lang.motion.verify import RobotDescription, VerifyOptions, to_diagnostics, verify_timed
+    from xei_lang.motion.verify import (
+        RobotDescription,
+        VerifyOptions,
+        check_durations,
+        to_diagnostics,
+        verify_timed,
+    )
     from xei_lang.profiles.open import robot_texts
 
     assert made.profile is not None
+    assert made.plan is not None
     assert made.timed is not None
     assert made.graph is not None
     assert made.world is not None
@@ -154,7 +161,8 @@ def _verify(request: Request, made: Handoffs) -> tuple[Handoffs, Diagnostics]:
     found = {margin.name: margin for margin in (*made.timed.margins, *report.margins)}
     margins = tuple(found[name] for name in sorted(found))
     said = to_diagnostics(report, made.graph)
-    return replace(made, timed=replace(made.timed, margins=margins), verified=report.checked), said
+    late = check_durations(made.plan, made.graph, made.timed, made.profile.bank)
+    return replace(made, timed=replace(made.timed, margins=margins), verified=report.checked), (*said, *late)
 
 
 FRONT: tuple[Pass, ...] = (

@@ -75,6 +75,7 @@ class _Bank:
             touchable=model.touchable,
             occupies_span=self.root.key_span(*path, "occupies") if model.occupies else None,
             min_confidence=model.min_confidence,
+            duration_span=self.root.span_of(*path, "duration"),
         )
 
     def returned(self, model: ReturnModel, path: Path) -> ReturnSpec:

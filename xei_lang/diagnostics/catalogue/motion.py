@@ -46,6 +46,7 @@ ENTRIES = {
     "XEI0807": Entry("a configuration outside the joints' range"),
     "XEI0808": Entry("a held object that cannot be brought to its carry pose"),
     "XEI0809": Entry("a held object that is tilted before it is carried"),
+    "XEI0810": Entry("a step that takes longer or less than its skill says", "warning"),
     "XEI0850": Entry("a timed plan is not well formed"),
     "XEI0851": Entry("a number in a timed plan is not finite"),
     "XEI0852": Entry("a timed plan does other goals than were asked for"),

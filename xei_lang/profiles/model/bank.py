@@ -122,6 +122,7 @@ class SkillSpec(Record):
     touchable: bool = False
     occupies_span: Span | None = None
     min_confidence: float | None = None
+    duration_span: Span | None = None
 
     def arg(self, name: str) -> ArgSpec | None:
         """The argument of this name, or None."""
