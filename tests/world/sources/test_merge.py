@@ -217,6 +217,31 @@ def test_what_stands_by_its_prior_on_a_table_that_was_seen_stands_on_it_as_it_wa
     assert dict(beaker.provenance)["pose"] == "usage_profile prior, moved with table"
 
 
+@pytest.mark.parametrize(("x", "y", "yaw"), [(0.015, 0.0, 0.0), (-0.04, 0.06, 0.09), (0.0, -0.08, -0.15)])
+def test_what_has_its_prior_in_the_frame_of_a_table_that_was_seen_moves_with_the_table(x, y, yaw):
+    """A base that docks a little beside sees its table elsewhere, and all that stands on it with it."""
+    T_table_before = world().T_world_object("table")
+    px, py, pz = T_table_before.position_m
+    there = Pose.from_rpy((px + x, py + y, pz), (0.0, 0.0, yaw))
+    found = grounded(seen(Observation("table", there, "world", 0.9)))
+    on_table = [
+        item for item in bench().objects if item.prior and item.prior.frame == "table" and not item.system
+    ]
+    assert len(on_table) > 5
+    for item in on_table:
+        before = T_table_before.inverse() @ world().T_world_object(item.name)
+        after = there.inverse() @ found.T_world_object(item.name)
+        assert after.position_m == pytest.approx(before.position_m, abs=1e-9)
+        assert after.quaternion == pytest.approx(before.quaternion, abs=1e-9)
+        told = found.find(item.name)
+        assert told is not None
+        assert dict(told.provenance)["pose"].endswith(", moved with table")
+    rack, tube = (found.T_world_object(name).position_m for name in ("rack_1", "tube_1"))
+    assert math.dist(rack, tube) == pytest.approx(
+        math.dist(world().T_world_object("rack_1").position_m, world().T_world_object("tube_1").position_m)
+    )
+
+
 def test_a_small_lean_does_not_hide_a_contradiction():
     x, y, z = world().T_world_object("rack_1").position_m
     leaning = Observation("beaker_1", Pose.from_rpy((x, y, z), (0.01, 0.0, 0.0)), "world", 0.9)

@@ -72,15 +72,36 @@ class Standings:
             T_world_frame = self._frames.get(prior.frame)
             if T_world_frame is None:
                 return None
-            pose = prior.T_frame_object
-            on_seen = None if item.system else self._on_seen(item, T_world_frame @ pose)
-            return on_seen or Standing(prior.frame, pose, T_world_frame @ pose)
+            if item.system:
+                return Standing(prior.frame, prior.T_frame_object, T_world_frame @ prior.T_frame_object)
+            shift, carrier = self._shift(item, T_world_frame)
+            T_world_object = shift @ T_world_frame @ prior.T_frame_object
+            on_seen = self._on_seen(item, T_world_object)
+            T_frame_object = T_world_frame.inverse() @ T_world_object if carrier else prior.T_frame_object
+            return on_seen or Standing(prior.frame, T_frame_object, T_world_object, carried_by=carrier)
         holder, under = self.of(place.object), self._beliefs.get(place.object)
         T_holder = T_object_standing(under.item, place.kind, place.key) if under else None
         if holder is None or under is None or T_holder is None:
             return None
         carrier = under.item.name if under.seen else holder.carried_by
         return _on(holder, T_holder @ prior.T_frame_object, place, 0.0, carrier)
+
+    def _shift(self, item: LabObject, T_world_frame: Pose) -> tuple[Pose, str]:
+        """How the thing that the frame of this prior is named after has moved in `world` since it was
+        calibrated, and its name; none and empty where it was not seen.
+        """
+        prior = item.prior
+        named = self._beliefs.get(prior.frame) if prior else None
+        if prior is None or named is None or named.seen is None or named.item is item:
+            return IDENTITY, ""
+        calibrated, T_world_seen = named.item.prior, self._T_world_seen(named)
+        if calibrated is None or calibrated.frame != prior.frame or T_world_seen is None:
+            return IDENTITY, ""
+        return T_world_seen @ (T_world_frame @ calibrated.T_frame_object).inverse(), prior.frame
+
+    def _T_world_seen(self, known: Belief) -> Pose | None:
+        T_world_frame = self._frames.get(known.seen.frame_id) if known.seen else None
+        return T_world_frame @ known.seen.T_frame_object if T_world_frame and known.seen else None
 
     def _on_seen(self, item: LabObject, T_world_object: Pose) -> Standing | None:
         """Where an object stands by its prior on something that was seen, which may be a little higher or
@@ -133,7 +154,10 @@ class Standings:
                 frame = seen.frame_id if seen else prior.frame if prior else ""
                 own = seen.T_frame_object if seen else prior.T_frame_object if prior else IDENTITY
                 T_world_frame = self._frames.get(frame)
-                return T_world_frame @ own @ pose if T_world_frame else None
+                if T_world_frame is None:
+                    return None
+                shift = IDENTITY if seen or known.item.system else self._shift(known.item, T_world_frame)[0]
+                return shift @ T_world_frame @ own @ pose
             if prior is None:
                 return None
             under = self._beliefs.get(prior.in_object)
