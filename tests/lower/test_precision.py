@@ -99,6 +99,21 @@ def test_tips_and_openings_ask_for_a_place_known_well() -> None:
     assert not list(imprecise_tasks(steps, profile, replace(world, frames=exact)))
 
 
+def test_elements_of_a_screen_ask_for_a_place_known_well() -> None:
+    profile, world = bench()
+    screen = obj("incubator_screen")
+    taps = plan(*(("tap", {"screen": screen, "element": name, "arm": "left"}) for name in ("start", "stop")))
+    told = list(imprecise_tasks(taps, profile, world))
+    assert [item.message for item in told] == ["`tap` may miss `start`"], "once for elements of one size"
+    assert "the element takes an error of 5.0 mm, and may be" in told[0].label
+    known = profile.object("incubator_screen")
+    assert known is not None
+    large = tuple(replace(item, size_m=(0.03, 0.03)) for item in known.elements)
+    assert not list(
+        imprecise_tasks(taps, with_object(profile, known.name, replace(known, elements=large)), world)
+    )
+
+
 def test_a_bench_is_looked_at_from_the_station_that_works_it() -> None:
     """Seen from the other station, three metres away, a turn of the camera would count for far more."""
     profile, world = bench()

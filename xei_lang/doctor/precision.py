@@ -1,4 +1,4 @@
-"""Slots and tips whose place is known worse than the gap around what goes into them."""
+"""Slots, tips and elements of screens whose place is known worse than the gap around what goes there."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from xei_lang.world.precision import Benches, SlotPrecision
 
 
 def precision_blockers(profile: Profile) -> Iterator[Blocker]:
-    """One blocker for each object with slots that the widest object they accept may miss, or whose tips a
-    pipette may miss.
+    """One blocker for each object with slots that the widest object they accept may miss, whose tips a
+    pipette may miss, or whose elements a finger may miss.
     """
     world, _ = ground(profile)
     if world is None:
@@ -29,12 +29,16 @@ def precision_blockers(profile: Profile) -> Iterator[Blocker]:
             mend = (
                 f"calibrate `{{frame}}` more closely, or give `{holder.name}` wider chamfers: its slots take"
             )
-            yield _blocker(profile, holder, name, found, mend)
+            yield _blocker(profile, holder, "slots", name, found, mend)
         for pipette in profile.objects:
             missed = _missed_tip(profile, benches, holder, pipette)
             if missed is not None:
                 mend = f"calibrate `{{frame}}` more closely: the tips of `{holder.name}` take"
-                yield _blocker(profile, holder, pipette.name, missed, mend)
+                yield _blocker(profile, holder, "slots", pipette.name, missed, mend)
+        element = _missed_element(benches, holder)
+        if element is not None:
+            mend = "calibrate `{frame}` more closely, or use larger elements: a touch meets"
+            yield _blocker(profile, holder, "elements", *element, mend)
 
 
 def _missed_tip(
@@ -58,6 +62,13 @@ def _missed_tip(
     return max(missed, key=lambda item: item.tolerance_m, default=None)
 
 
+def _missed_element(benches: Benches, screen: LabObject) -> tuple[str, SlotPrecision] | None:
+    """The element of a screen that a finger misses most."""
+    found = [(item.name, benches.element(screen, item)) for item in screen.elements]
+    missed = [(name, item) for name, item in found if item is not None and not item.is_enough]
+    return max(missed, key=lambda pair: pair[1].tolerance_m - pair[1].capture_m, default=None)
+
+
 def _worst(profile: Profile, benches: Benches, holder: LabObject) -> tuple[str, SlotPrecision] | None:
     grid = holder.slots
     takes = [item for item in profile.objects if grid and set(item.roles) & set(grid.accepts)]
@@ -69,7 +80,9 @@ def _worst(profile: Profile, benches: Benches, holder: LabObject) -> tuple[str, 
     return (widest.name, max(known, key=lambda item: item.tolerance_m)) if known else None
 
 
-def _blocker(profile: Profile, holder: LabObject, name: str, found: SlotPrecision, mend: str) -> Blocker:
+def _blocker(
+    profile: Profile, holder: LabObject, kind: str, name: str, found: SlotPrecision, mend: str
+) -> Blocker:
     calibrated = {frame.name for frame in profile.calibration.frames}
     shares = [share for share in found.way.shares if share.link.name in calibrated]
     weak = max(shares, key=lambda share: share.most_m, default=found.way.shares[-1]).link
@@ -78,7 +91,7 @@ def _blocker(profile: Profile, holder: LabObject, name: str, found: SlotPrecisio
         f"{mend.format(frame=weak.name)} `{name}` with an error of {error_mm(found.capture_m)}, and may "
         f"be {error_mm(found.tolerance_m)} off"
     )
-    where = f"slots.{holder.name}"
+    where = f"{kind}.{holder.name}"
     return Blocker(
         "XEI0676", "world", where, "imprecise", "hardware", measure, f"{CALIBRATION}:{item}", holder.span
     )

@@ -1,5 +1,5 @@
-"""Tasks that ask for more than is known: an object into a slot, a pipette onto a tip, a tip into a vessel,
-whose place is known worse than the gap.
+"""Tasks that ask for more than is known: an object into a slot, a pipette onto a tip, a tip into a vessel, a
+finger onto an element of a screen, whose place is known worse than the gap.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from xei_lang.diagnostics import Diagnostic
 from xei_lang.ir.skill_plan import ObjectRef, PlaceRef, SkillPlan, Step
 from xei_lang.ir.tolerance import SIGMAS
 from xei_lang.ir.world import Frame, World
+from xei_lang.lower.precision_of_elements import element_fits
 from xei_lang.lower.precision_of_tips import tip_fits
 from xei_lang.lower.seats import place_text
 from xei_lang.profiles.model import Profile
@@ -28,20 +29,21 @@ def imprecise_tasks(plan: SkillPlan, profile: Profile, world: World) -> Iterator
 
     A simulation knows where everything is; on hardware such a task is a matter of luck.
     """
-    warned: set[tuple[str, str | float]] = set()
+    warned: set[tuple[str, str, float]] = set()
     benches = Benches.of(world, profile)
     for step in plan.steps:
-        for fit in tip_fits(step, benches):
-            if (fit.holder, fit.item) not in warned and not fit.found.is_enough:
-                warned.add((fit.holder, fit.item))
+        for fit in (*tip_fits(step, benches), *element_fits(step, benches)):
+            key = (fit.holder, fit.item, fit.found.capture_m)
+            if key not in warned and not fit.found.is_enough:
+                warned.add(key)
                 yield _warning(step, fit.item, fit.where, fit.found, fit.label)
         for name, place in _insertions(step, profile):
             holder, item = profile.object(place.object), profile.object(name)
-            if holder is None or item is None or (holder.name, max(item.size_m[:2])) in warned:
+            if holder is None or item is None or (holder.name, "", max(item.size_m[:2])) in warned:
                 continue
             found = benches.slot(holder, place.key, item)
             if found is not None and not found.is_enough:
-                warned.add((holder.name, max(item.size_m[:2])))
+                warned.add((holder.name, "", max(item.size_m[:2])))
                 yield _warning(step, name, place_text(place), found, "the slot takes an error of", _CHAMFER)
 
 

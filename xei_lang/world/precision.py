@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from xei_lang.ir.geometry import Pose, Vec3
 from xei_lang.ir.world import World
 from xei_lang.profiles.grid import T_object_slot
-from xei_lang.profiles.model import LabObject, Profile
+from xei_lang.profiles.model import Element, LabObject, Profile
 from xei_lang.world.frames import world_at
 from xei_lang.world.transforms import Transform, lookup
 
@@ -17,10 +17,12 @@ BASE = "robot_base"
 
 @dataclass(frozen=True, slots=True)
 class SlotPrecision:
-    """How far an object may miss a slot, and how far the slot may be from where the robot takes it to be.
+    """How far an object may miss a slot, or a finger an element of a screen, and how far that may be from
+    where the robot takes it to be.
 
-    `capture_m` is the gap around the object and the chamfer that leads it in; `tolerance_m` is what the error
-    of the slot's mouth in the robot's base is taken to be at most, along `way`.
+    `capture_m` is the gap around the object and the chamfer that leads it in, or half the element;
+    `tolerance_m` is what the error of the slot's mouth, or the element's middle, in the robot's base is taken
+    to be at most, along `way`.
     """
 
     capture_m: float
@@ -58,6 +60,14 @@ class Benches:
             return None
         capture_m = (grid.bore_m - max(item.size_m[:2])) / 2 + grid.chamfer_m
         return self.point(holder.name, T_holder_slot.position_m, capture_m)
+
+    def element(self, screen: LabObject, element: Element) -> SlotPrecision | None:
+        """The precision of an element of a touch screen for what touches its middle; None where the screen
+        has no place in the world.
+        """
+        depth, width, _ = screen.size_m
+        right, up = element.center_m
+        return self.point(screen.name, (-depth / 2, width / 2 - right, up), min(element.size_m) / 2)
 
     def point(self, holder: str, point_m: Vec3, capture_m: float) -> SlotPrecision | None:
         """The precision of a point of an object, in the object's frame, for what may miss it by `capture_m`;

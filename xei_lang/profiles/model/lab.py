@@ -160,8 +160,8 @@ class LabObject(Record):
     up.
 
     `skills` is all that may be done with it, unless `skills_span` is None: then the profile does not say, and
-    anything may. `assets` are the files that it names, `models` those that were read; `computed_from` says what its size
-    was computed from, and is empty where the profile states it.
+    anything may. `assets` are the files that it names, `models` those that were read; `computed_from` says
+    what its size was computed from, and is empty where the profile states it.
     """
 
     name: str
