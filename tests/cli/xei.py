@@ -43,6 +43,7 @@ def _warm_cache() -> Path:
 def start(
     *args: str, cwd: Path, env: dict[str, str] | None = None, stdout: IO[str] | int = subprocess.PIPE
 ) -> subprocess.Popen[str]:
+    assert cwd != ROOT, "a test leaves its cache where it runs"
     if not (cwd / ".cache").exists():
         with suppress(OSError):
             shutil.copytree(_warm_cache(), cwd / ".cache")

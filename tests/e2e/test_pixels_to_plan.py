@@ -10,7 +10,7 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from tests.cli.xei import ROOT
+from tests.cli.xei import PROFILES, ROOT
 from tests.world.perception.serving import process
 from tests.world.perception.views import bench
 from xei_lang.diagnostics import Source, has_errors
@@ -59,7 +59,7 @@ def picture(lab: Profile, truth: World) -> Picture:
 
 
 @pytest.fixture(scope="module")
-def seen(lab: Profile, picture: Picture) -> Seen:
+def seen(lab: Profile, picture: Picture, tmp_path_factory: pytest.TempPathFactory) -> Seen:
     """What the service finds of the table, both racks and a bottle that has no tags."""
     names = ("table", "rack_1", "rack_2", "bottle_1")
     request = ask_for(picture, registry_of(lab), names, request_id="r1", session_id="s1")
@@ -67,7 +67,9 @@ def seen(lab: Profile, picture: Picture) -> Seen:
         (ROOT / "xei_lang/world/perception/pose_request.schema.json").read_text(encoding="utf-8")
     )
     jsonschema.Draft202012Validator(schema).validate(request_json(request))
-    with process(ROOT, "--backend", "apriltag") as url:
+    folder = tmp_path_factory.mktemp("service")
+    (folder / "profiles").symlink_to(PROFILES)
+    with process(folder, "--backend", "apriltag") as url:
         found = observe(PoseClient(url), lab, request, now_ns=STAMP_NS + 300_000_000)
     assert isinstance(found, Seen), found
     return found
